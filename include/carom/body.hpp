@@ -1,0 +1,85 @@
+/// \file
+/// Bodies as the public API sees them: ids, one body, and columns of many.
+#pragma once
+
+#include <carom/vec3.hpp>
+
+#include <compare>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace carom {
+
+/// Names a body for as long as it exists, wherever it is kept in memory. A default id names nothing.
+/// An id is refused once its body was removed, and by every world but its own (and that world's snapshots).
+struct BodyId {
+    std::uint32_t slot = 0xffffffffU; ///< place in the world's table of ids; the order of ids
+    std::uint16_t generation = 0;     ///< how often the slot was given out before
+    std::uint16_t world = 0;          ///< which world of this process gave it out; takes no part in the order
+
+    friend constexpr bool operator==(const BodyId&, const BodyId&) = default;
+    friend constexpr std::strong_ordering operator<=>(const BodyId& a, const BodyId& b) {
+        if (const auto by_slot = a.slot <=> b.slot; by_slot != 0) return by_slot;
+        return a.generation <=> b.generation;
+    }
+    /// False for a default id; says nothing about whether the body still exists (see World::contains).
+    [[nodiscard]] constexpr bool is_set() const { return slot != 0xffffffffU; }
+};
+
+/// Mass of a static body: it never moves, and takes any momentum.
+inline constexpr double infinite_mass = std::numeric_limits<double>::infinity();
+
+/// A point mass with a collision radius.
+struct Body {
+    Vec3 position{};              ///< m, relative to the world's origin; rounded to the world's resolution
+    Vec3 velocity{};              ///< m/s; zero for a static body
+    double mass = 1;              ///< kg, > 0; infinite_mass makes the body static
+    double radius = 0.5;          ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
+    double restitution = 1;       ///< e in [0, 1]; two bodies use the larger
+    double friction = 0;          ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
+    std::uint32_t material = 0;   ///< key into the world's material rules; has no other effect
+    std::uint64_t user_data = 0;  ///< yours; kept in snapshots, no part of the hash
+};
+
+/// Columns of many bodies to read from: the primary way in. Either all bodies' values or, if empty, none: then
+/// `add` takes the default of Body, and `set` leaves what is there. Units as in Body.
+struct ConstBodyColumns {
+    std::span<const Vec3> position{};
+    std::span<const Vec3> velocity{};
+    std::span<const double> mass{};
+    std::span<const double> radius{};
+    std::span<const double> restitution{};
+    std::span<const double> friction{};
+    std::span<const std::uint32_t> material{};
+    std::span<const std::uint64_t> user_data{};
+};
+
+/// Columns of many bodies to write to: the primary way out. Empty columns are not wanted. Units as in Body.
+struct BodyColumns {
+    std::span<Vec3> position{};
+    std::span<Vec3> velocity{};
+    std::span<double> mass{};
+    std::span<double> radius{};
+    std::span<double> restitution{};
+    std::span<double> friction{};
+    std::span<std::uint32_t> material{};
+    std::span<std::uint64_t> user_data{};
+};
+
+/// What e and mu two bodies of the materials `a` and `b` (in either order) use instead of the combined ones.
+struct MaterialRule {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    double restitution = 1; ///< in [0, 1]
+    double friction = 0;    ///< >= 0
+};
+
+/// What to do when an added or moved body would overlap another one, or reach through a face of the region.
+enum class Overlap : std::uint8_t {
+    refuse, ///< throw Error{overlap}; gaps down to a rounding (-1e-9 diameters in double, -1e-6 in single, or two
+            ///< units of the world's resolution) are no overlap
+    accept, ///< take it: the pair does not approach further (it has its impact at once) and parts freely
+};
+
+} // namespace carom

@@ -1,0 +1,12 @@
+/// \file
+/// All of carom's public API.
+#pragma once
+
+#include <carom/body.hpp>
+#include <carom/collision.hpp>
+#include <carom/error.hpp>
+#include <carom/events.hpp>
+#include <carom/region.hpp>
+#include <carom/time_of_impact.hpp>
+#include <carom/vec3.hpp>
+#include <carom/world.hpp>

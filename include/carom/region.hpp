@@ -1,0 +1,62 @@
+/// \file
+/// What bounds a world.
+#pragma once
+
+#include <carom/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace carom {
+
+/// e and mu of a surface; what is not given is taken from the body that meets it.
+struct Surface {
+    std::optional<double> restitution{}; ///< in [0, 1]
+    std::optional<double> friction{};    ///< Coulomb's mu >= 0
+};
+
+/// No bounds at all.
+struct OpenSpace {};
+
+/// What a face of a Box does with the bodies that reach it.
+enum class FaceKind : std::uint8_t {
+    reflecting, ///< bodies bounce off it
+    open,       ///< it is not there; the faces beside it go on for ever
+    periodic,   ///< what leaves here enters at the opposite face, which must be periodic too
+};
+
+/// One face of a Box.
+struct Face {
+    FaceKind kind = FaceKind::reflecting;
+    Surface surface{};
+};
+
+/// Axis-aligned box with the bodies inside. Faces are numbered -x, +x, -y, +y, -z, +z (0 to 5), also in Impact::face.
+/// A periodic side must be longer than four times the largest radius in the world.
+struct Box {
+    Vec3 min{}; ///< m
+    Vec3 max{}; ///< m, greater than min in every component
+    std::array<Face, 6> faces{};
+};
+
+/// A wall: bodies are on the side the normal points to. Impact::face is its index in the list of planes.
+struct Plane {
+    Vec3 point{};         ///< m, any point of the plane
+    Vec3 normal{0, 0, 1}; ///< any length but zero; only the direction counts
+    Surface surface{};
+};
+
+/// The inside of a spherical shell. Impact::face is 0.
+struct Shell {
+    Vec3 centre{};     ///< m
+    double radius = 1; ///< m, > 0
+    Surface surface{};
+};
+
+/// What bounds a world: nothing, a box, up to 64 planes, or a shell.
+using Region = std::variant<OpenSpace, Box, std::vector<Plane>, Shell>;
+
+} // namespace carom

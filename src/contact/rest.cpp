@@ -1,0 +1,174 @@
+#include "contact/rest.hpp"
+
+#include <carom/collision.hpp>
+
+namespace carom::core {
+
+namespace {
+
+/// Takes the components along the supports' normals out of a vector; a few sweeps do for supports that are not square.
+Vec3 along_supports(Vec3 vector, const std::vector<Support>& supports) {
+    constexpr int sweeps = 8;
+    const std::size_t needed = supports.size() == 1 ? 1 : sweeps;
+    for (std::size_t sweep = 0; sweep < needed; ++sweep) {
+        for (const Support& s : supports) vector -= s.normal * dot(vector, s.normal);
+    }
+    return vector;
+}
+
+template <class Real>
+Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
+    const Int3& x = state.bodies.motion[body].x;
+    if (support.is_wall()) return state.bounds.normal(state.bounds.walls()[support.wall()], x, {}, state.resolution);
+    return contact_normal(separation(state, body, state.bodies.slots[support.code].index, {}, {}), Vec3{});
+}
+
+/// m between a body's surface and a support.
+template <class Real>
+double gap_to(const State<Real>& state, Index body, const Support& support) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const auto radius = static_cast<double>(m.radius);
+    if (support.is_wall()) {
+        return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, state.resolution);
+    }
+    const Index other = state.bodies.slots[support.code].index;
+    return length(separation(state, body, other, {}, {})) - radius -
+           static_cast<double>(state.bodies.motion[other].radius);
+}
+
+/// 1/m, the bend of the path of a body that slides along a support; positive where it presses the body on.
+template <class Real>
+double bend_of(const State<Real>& state, Index body, const Support& support) {
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    if (support.is_wall()) {
+        return state.bounds.shape() == Bounds::Shape::shell ? 1 / (state.bounds.shell_radius() - radius) : 0;
+    }
+    const Index other = state.bodies.slots[support.code].index;
+    return -1 / (radius + static_cast<double>(state.bodies.motion[other].radius));
+}
+
+template <class Real>
+double friction_of(const State<Real>& state, Index body, const Support& support) {
+    if (support.is_wall()) return encounter_of(state, body, state.bounds.walls()[support.wall()]).friction;
+    return encounter_of(state, body, state.bodies.slots[support.code].index).friction;
+}
+
+/// How a held body moves: along its supports, slowed by friction, which brings it to a stop but never turns it back.
+template <class Real>
+void derive_motion(State<Real>& state, Index body, Hold& hold, double duration) {
+    Motion<Real>& motion = state.bodies.motion[body];
+    const Vec3 v = along_supports(velocity_of(motion), hold.supports);
+    motion.v = rounded<Real>(v);
+    const Vec3 all = state.laws.gravity + attraction(state, body);
+    const Vec3 pull = along_supports(all, hold.supports);
+    const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
+    double mu = 0;
+    for (const Support& s : hold.supports) mu = std::max(mu, friction_of(state, body, s));
+    const double grip = mu * length(all - pull);
+    const double speed = length(v);
+    hold.sticks = mu > 0 && duration > 0 && (grip - length(pull)) * duration >= speed;
+    if (hold.sticks) {
+        hold.friction = v / -duration - slide;
+    } else if (mu > 0) {
+        hold.friction = (speed > 0 ? v / speed : pull / length(pull)) * -grip;
+    } else {
+        hold.friction = {};
+    }
+    hold.acceleration = slide + hold.friction;
+}
+
+} // namespace
+
+template <class Real>
+Pressure pressure_on(const State<Real>& state, Index body, const Support& support, const Vec3& velocity) {
+    const Vec3 pull = attraction(state, body);
+    const Vec3& n = support.normal;
+    const double across = dot(velocity, n);
+    const double slide_squared = std::max(0.0, length_squared(velocity) - across * across);
+    const double kick = std::max(0.0, dot(pull, n)) * state.laws.kick_interval;
+    return {dot(state.laws.gravity + pull, n) + bend_of(state, body, support) * slide_squared, kick};
+}
+
+template <class Real>
+void hold_against(State<Real>& state, Index body, const Support& support, double remaining) {
+    state.bodies.kind[body] = Kind::held;
+    Hold& hold = state.bodies.holds[state.bodies.slot[body]];
+    constexpr std::size_t most = 3;
+    if (hold.supports.size() == most) hold.supports.erase(hold.supports.begin());
+    hold.supports.push_back(support);
+    derive_motion(state, body, hold, remaining);
+}
+
+template <class Real>
+void refresh_holds(State<Real>& state, double duration) {
+    Bodies<Real>& bodies = state.bodies;
+    for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
+        Hold& hold = it->second;
+        const Index body = bodies.slots[it->first].index;
+        const Vec3 v = velocity_of(bodies.motion[body]);
+        std::erase_if(hold.supports, [&](Support& s) {
+            s.normal = normal_of(state, body, s);
+            const bool leaves = dot(v, s.normal) < -approach_rounding<Real>(v, {}, s.normal);
+            return leaves || pressure_on(state, body, s, v).acceleration <= 0;
+        });
+        if (hold.supports.empty()) {
+            bodies.kind[body] = Kind::free;
+            it = bodies.holds.erase(it);
+            continue;
+        }
+        derive_motion(state, body, hold, duration);
+        ++it;
+    }
+}
+
+template <class Real>
+void settle_holds(State<Real>& state) {
+    Bodies<Real>& bodies = state.bodies;
+    for (auto& [slot, hold] : bodies.holds) {
+        const Index body = bodies.slots[slot].index;
+        Motion<Real>& motion = bodies.motion[body];
+        for (Support& s : hold.supports) {
+            if (s.is_wall() && state.bounds.walls()[s.wall()].axis >= 0) continue;
+            s.normal = normal_of(state, body, s);
+            const double gap = gap_to(state, body, s);
+            motion.x = motion.x + round_to_units(s.normal * gap, state.resolution);
+            const Vec3 v = velocity_of(motion);
+            const Vec3 along = v - s.normal * dot(v, s.normal);
+            const double speed = length(along);
+            if (speed > 0) motion.v = rounded<Real>(along * (length(v) / speed));
+        }
+    }
+}
+
+template <class Real>
+Vec3 kick_along_supports(const State<Real>& state, Index body, Vec3 kick) {
+    const Hold& hold = hold_of(state.bodies, body);
+    return hold.sticks ? Vec3{} : along_supports(kick, hold.supports);
+}
+
+template <class Real>
+void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
+    for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
+        const Index body = bodies.slots[it->first].index;
+        std::erase_if(it->second.supports, [slot](const Support& s) { return s.code == slot; });
+        if (!it->second.supports.empty()) {
+            ++it;
+            continue;
+        }
+        bodies.kind[body] = Kind::free;
+        it = bodies.holds.erase(it);
+    }
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template Pressure pressure_on(const State<Real>&, Index, const Support&, const Vec3&);                             \
+    template void hold_against(State<Real>&, Index, const Support&, double);                                           \
+    template void refresh_holds(State<Real>&, double);                                                                 \
+    template void settle_holds(State<Real>&);                                                                          \
+    template Vec3 kick_along_supports(const State<Real>&, Index, Vec3);                                                \
+    template void release_from(Bodies<Real>&, std::uint32_t);
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core

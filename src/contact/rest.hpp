@@ -1,0 +1,55 @@
+/// \file
+/// Coming to rest against a face or a static body, until struck or let go.
+#pragma once
+
+#include "space/state.hpp"
+
+namespace carom::core {
+
+/// The rest rule. A body that meets a support with `approach` (m/s) while `pressing` (m/s^2) pushes it there bounces
+/// at intervals 2 e v / a, 2 e^2 v / a, ...: for another 2 e v / ((1 - e) a) seconds in all. It comes to rest if that
+/// is less than `rest_time`. e = 1 never rests.
+inline bool comes_to_rest(double e, double approach, double pressing, double rest_time) {
+    return pressing > 0 && e < 1 && 2 * e * approach < (1 - e) * pressing * rest_time;
+}
+
+/// Approach speed below which rounding of the velocities alone can make bodies seem to approach, m/s: half a unit in
+/// the last place of each component, of both bodies, along the normal.
+template <class Real>
+double approach_rounding(const Vec3& v_a, const Vec3& v_b, const Vec3& n) {
+    const auto weight = [](double a, double b) { return std::abs(a) + std::abs(b); };
+    return static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+           (weight(v_a.x, v_b.x) * std::abs(n.x) + weight(v_a.y, v_b.y) * std::abs(n.y) +
+            weight(v_a.z, v_b.z) * std::abs(n.z));
+}
+
+/// Speed (m/s) and acceleration (m/s^2) with which a body is pressed into a support.
+struct Pressure {
+    double acceleration = 0; ///< by gravity, attractors, and the bend of a curved support
+    double kick = 0;         ///< m/s, what the attractors' kicks add between two impacts: no real approach speed
+};
+
+template <class Real>
+Pressure pressure_on(const State<Real>& state, Index body, const Support& support, const Vec3& velocity);
+
+/// Puts a body, standing where it touches the support, to rest against it. `remaining`: s to the end of the step.
+template <class Real>
+void hold_against(State<Real>& state, Index body, const Support& support, double remaining);
+
+/// Start of a step: drops supports that no longer press and derives how the held bodies move in the next `duration`.
+template <class Real>
+void refresh_holds(State<Real>& state, double duration);
+
+/// End of a step: puts bodies that slid along a curved or slanted support back onto it.
+template <class Real>
+void settle_holds(State<Real>& state);
+
+/// Changes a held body's velocity by an attractor's kick (m/s): only along its supports, and not if friction holds it.
+template <class Real>
+Vec3 kick_along_supports(const State<Real>& state, Index body, Vec3 kick);
+
+/// Lets go whatever rests on the static body in `slot`.
+template <class Real>
+void release_from(Bodies<Real>& bodies, std::uint32_t slot);
+
+} // namespace carom::core

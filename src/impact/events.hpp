@@ -1,0 +1,66 @@
+/// \file
+/// The queue of predicted impacts.
+#pragma once
+
+#include "space/bodies.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace carom::core {
+
+/// A predicted impact; outdated as soon as one of its bodies has another version.
+struct Event {
+    double time = 0;             ///< s since the start of the step
+    Index a = no_index;
+    std::uint32_t b = no_index;  ///< the other body, or wall_bit | index of a wall
+    std::uint32_t version_a = 0;
+    std::uint32_t version_b = 0; ///< 0 for a wall
+
+    static constexpr std::uint32_t wall_bit = 0x80000000U;
+    [[nodiscard]] bool at_wall() const { return (b & wall_bit) != 0; }
+    [[nodiscard]] std::uint32_t wall() const { return b & ~wall_bit; }
+};
+
+/// Events by (time, ids): the order is a function of the state alone, never of the order of discovery.
+template <class Real>
+class EventQueue {
+public:
+    explicit EventQueue(const Bodies<Real>& bodies) : bodies_(&bodies) {}
+
+    void clear() { heap_.clear(); }
+    [[nodiscard]] bool empty() const { return heap_.empty(); }
+    [[nodiscard]] const Event& top() const { return heap_.front(); }
+
+    void push(const Event& event) {
+        heap_.push_back(event);
+        std::push_heap(heap_.begin(), heap_.end(), Later{bodies_});
+    }
+    void pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), Later{bodies_});
+        heap_.pop_back();
+    }
+
+    [[nodiscard]] bool outdated(const Event& event) const {
+        if (bodies_->version[event.a] != event.version_a) return true;
+        return !event.at_wall() && bodies_->version[event.b] != event.version_b;
+    }
+
+private:
+    struct Later {
+        const Bodies<Real>* bodies;
+        bool operator()(const Event& x, const Event& y) const {
+            return x.time > y.time || (x.time == y.time && key(x) > key(y));
+        }
+        [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> key(const Event& e) const {
+            const std::uint32_t a = bodies->slot[e.a];
+            if (e.at_wall()) return {a, e.b};
+            return std::minmax(a, bodies->slot[e.b]);
+        }
+    };
+
+    const Bodies<Real>* bodies_;
+    std::vector<Event> heap_;
+};
+
+} // namespace carom::core

@@ -1,0 +1,135 @@
+#include "impact/prediction.hpp"
+
+#include <carom/collision.hpp>
+
+namespace carom::core {
+
+namespace {
+
+/// Two bodies that touch and are pressed together without a measurable approach meet again after this: a pair of
+/// moving bodies has no rest, and an impact without any speed would only repeat itself.
+template <class Real>
+double pressed_pair_delay(const State<Real>& state) {
+    return state.laws.collapse_time;
+}
+
+/// An impact that the times of impact put at once, between bodies that touch: whether there is one, and when.
+template <class Real>
+double immediate(const State<Real>& state, Index a, Index b, const Meeting& m, const Vec3& delta, const Vec3& pull) {
+    const Vec3 n = contact_normal(delta, Vec3{});
+    const double approach = dot(m.v_a - m.v_b, n);
+    if (approach > approach_rounding<Real>(m.v_a, m.v_b, n)) return 0;
+    const bool pressed = dot(pull, n) < 0;
+    if (!pressed) return no_impact;
+    const bool support = state.bodies.kind[a] == Kind::fixed || state.bodies.kind[b] == Kind::fixed;
+    return support ? 0 : pressed_pair_delay(state);
+}
+
+/// How far ahead of `start` to look, s: everything that counts up to `until` once added to `start` and rounded. Curved
+/// paths always look to the end of the step: the search for their roots starts from there, and its bits must not
+/// depend on windows.
+template <class Real>
+double horizon_of(const State<Real>& state, double start, double until, bool curved) {
+    const double end = curved ? state.laws.kick_interval : until;
+    return (end - start) + 4 * std::numeric_limits<double>::epsilon() * end;
+}
+
+/// The pair's next impact for one periodic image, s after `start`.
+template <class Real>
+double time_to_image(const State<Real>& state, Index a, Index b, const Meeting& m, const Vec3& delta, double start,
+                     double until) {
+    const Bodies<Real>& bodies = state.bodies;
+    const double contact = static_cast<double>(bodies.motion[a].radius) + static_cast<double>(bodies.motion[b].radius);
+    const Vec3 pull = bodies.kind[a] == bodies.kind[b] && bodies.kind[a] != Kind::held
+                          ? Vec3{}
+                          : acceleration_of(state, b) - acceleration_of(state, a);
+    const double horizon = horizon_of(state, start, until, pull != Vec3{});
+    const double time = time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon);
+    return time == 0 ? immediate(state, a, b, m, delta, pull) : time;
+}
+
+/// The bodies' next impact over all periodic images that they may come to within the horizon.
+template <class Real>
+double time_over_images(const State<Real>& state, Index a, Index b, double start, double now, double until) {
+    const Bounds& bounds = state.bounds;
+    const Meeting at_start = meeting_at(state, a, b, start);
+    const Meeting at_now = now > start ? meeting_at(state, a, b, now) : at_start;
+    const Meeting at_end = meeting_at(state, a, b, until);
+    const double contact = static_cast<double>(state.bodies.motion[a].radius) +
+                           static_cast<double>(state.bodies.motion[b].radius);
+    Int3 most{};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (bounds.period(axis) == 0) continue;
+        const double period = static_cast<double>(bounds.period(axis)) * state.resolution.metres;
+        const auto travel = [&](const Meeting& m) {
+            return std::abs(component(m.v_b, axis) - component(m.v_a, axis)) * (until - now);
+        };
+        const double reach = std::max(travel(at_now), travel(at_end)) + contact;
+        component(most, axis) = static_cast<std::int64_t>(std::min(reach / period + 0.5, 1e6));
+    }
+    const Int3 raw = state.bodies.motion[b].x - state.bodies.motion[a].x;
+    double first = no_impact;
+    for (Int3 image{-most.x}; image.x <= most.x; ++image.x) {
+        for (image.y = -most.y; image.y <= most.y; ++image.y) {
+            for (image.z = -most.z; image.z <= most.z; ++image.z) {
+                const Int3 difference =
+                    nearest_image(bounds, state.resolution, raw, at_now.d_b - at_now.d_a, image);
+                const Vec3 delta = to_metres(difference, state.resolution) + (at_start.d_b - at_start.d_a);
+                first = std::min(first, time_to_image(state, a, b, at_start, delta, start, until));
+            }
+        }
+    }
+    return first;
+}
+
+} // namespace
+
+template <class Real>
+double predict_pair(const State<Real>& state, Index i, Index j, double now, double until) {
+    const Bodies<Real>& bodies = state.bodies;
+    if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
+    const bool in_order = bodies.slot[i] < bodies.slot[j];
+    const Index a = in_order ? i : j;
+    const Index b = in_order ? j : i;
+    if (rests_on(bodies, a, bodies.slot[b]) || rests_on(bodies, b, bodies.slot[a])) return no_impact;
+    const double start = std::max(bodies.motion[a].t, bodies.motion[b].t);
+    if (state.bounds.any_periodic()) return start + time_over_images(state, a, b, start, now, until);
+    const Meeting m = meeting_at(state, a, b, start);
+    return start + time_to_image(state, a, b, m, m.delta, start, until);
+}
+
+template <class Real>
+double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, double until) {
+    const Bodies<Real>& bodies = state.bodies;
+    if (rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
+    const Motion<Real>& m = bodies.motion[body];
+    const Bounds::Wall& face = state.bounds.walls()[wall];
+    const Vec3 a = acceleration_of(state, body);
+    const Vec3 v = velocity_of(m);
+    const auto radius = static_cast<double>(m.radius);
+    const double gap = state.bounds.gap(face, m.x, {}, radius, state.resolution);
+    const bool curved = state.bounds.shape() == Bounds::Shape::shell && a != Vec3{};
+    const double horizon = horizon_of(state, m.t, until, curved);
+    double time = no_impact;
+    if (state.bounds.shape() == Bounds::Shape::shell) {
+        const Vec3 from_centre = Bounds::from_centre(face, m.x, {}, state.resolution);
+        time = time_to_shell_inside(from_centre, v, a, state.bounds.shell_radius() - radius, horizon);
+    } else {
+        time = time_to_plane(gap, -dot(v, face.normal), -dot(a, face.normal), horizon);
+    }
+    if (gap > state.resolution.metres || time > horizon) return m.t + time;
+    // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.
+    const Vec3 n = state.bounds.normal(face, m.x, {}, state.resolution);
+    if (std::abs(dot(v, n)) > approach_rounding<Real>(v, {}, n)) return m.t + time;
+    const bool pressed = pressure_on(state, body, {Support::wall_bit | wall, n}, v).acceleration > 0;
+    return pressed ? m.t : no_impact;
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template double predict_pair(const State<Real>&, Index, Index, double, double);                                    \
+    template double predict_wall(const State<Real>&, Index, std::uint32_t, double);
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core

@@ -1,0 +1,158 @@
+#include "impact/response.hpp"
+
+#include <carom/collision.hpp>
+
+namespace carom::core {
+
+namespace {
+
+/// TC rule: after this many impacts in quick succession further ones are elastic. Luding & McNamara, Granular Matter 1,
+/// 113 (1998), make every impact elastic that follows a contact of less than t_c; the count spares ordinary cascades.
+constexpr std::uint32_t quick_impacts_allowed = 8;
+
+/// Counts an impact of a body at `time`; true if it has had too many in quick succession.
+template <class Real>
+bool collapses(State<Real>& state, Index body, double time) {
+    if (state.bodies.kind[body] == Kind::fixed) return false;
+    Flight& flight = state.bodies.flight[body];
+    if (time - flight.last_impact > state.laws.collapse_time) flight.quick_impacts = 0;
+    flight.quick_impacts = std::min(flight.quick_impacts + 1, quick_impacts_allowed + 1);
+    flight.last_impact = time;
+    return flight.quick_impacts > quick_impacts_allowed;
+}
+
+/// Brings a body to the time of its event and outdates its other events.
+template <class Real>
+void take_part(State<Real>& state, Index body, double time) {
+    if (state.bodies.kind[body] == Kind::fixed) return;
+    advance(state, body, time);
+    ++state.bodies.version[body];
+}
+
+template <class Real>
+void set_velocity(State<Real>& state, Index body, const Vec3& v) {
+    if (state.bodies.kind[body] != Kind::fixed) state.bodies.motion[body].v = rounded<Real>(v);
+}
+
+template <class Real>
+double mass_of(const State<Real>& state, Index body) {
+    return static_cast<double>(state.bodies.mass[body]);
+}
+
+void apply_tc_rule(bool collapse, Encounter& encounter, Outcome& outcome) {
+    if (!collapse || encounter.restitution == 1) return;
+    encounter.restitution = 1;
+    ++outcome.tc_conversions;
+}
+
+template <class Real>
+void write_down(State<Real>& state, ImpactRecord& impact, const Response<double>& response, Outcome& outcome) {
+    state.books.lost_to_restitution.add(response.restitution_loss);
+    state.books.lost_to_friction.add(response.friction_loss);
+    ++(impact.face >= 0 ? outcome.face_impacts : outcome.impacts);
+    impact.impulse = response.impulse;
+    impact.approach_speed = response.approach_speed;
+    impact.energy_lost = response.energy_lost();
+    if (outcome.record && impact.impulse >= outcome.least_impulse) outcome.records.push_back(impact);
+}
+
+/// A support that a body touches at `time`: whether the body comes to rest there.
+template <class Real>
+bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
+    const Pressure pressure = pressure_on(state, body, support, v);
+    if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
+    return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
+}
+
+/// A body, already at its time, against something that does not move: a face or a static body. An approach that is
+/// mere rounding is no impact: the body only finds one more support, beside those it may have.
+template <class Real>
+void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, ImpactRecord impact,
+                  Outcome& outcome) {
+    Vec3 v = velocity_of(state.bodies.motion[body]);
+    const double approach = dot(v, support.normal);
+    const bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
+    if (approach > approach_rounding<Real>(v, {}, support.normal)) {
+        release(state.bodies, body);
+        const bool collapse = collapses(state, body, impact.offset);
+        if (come_to_rest) {
+            encounter.restitution = 0;
+        } else {
+            apply_tc_rule(collapse, encounter, outcome);
+        }
+        Vec3 support_velocity{};
+        const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
+                                                  support_velocity, encounter.restitution, encounter.friction);
+        set_velocity(state, body, v);
+        state.books.outer_impulse.add(-(support.normal * response.impulse) - response.friction_impulse);
+        write_down(state, impact, response, outcome);
+    }
+    if (come_to_rest) hold_against(state, body, support, state.laws.kick_interval - impact.offset);
+}
+
+template <class Real>
+void execute_wall(State<Real>& state, const Event& event, Outcome& outcome) {
+    const Bounds::Wall& wall = state.bounds.walls()[event.wall()];
+    const Motion<Real>& m = state.bodies.motion[event.a];
+    const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
+    const Support support{event.b, state.bounds.normal(wall, m.x, d, state.resolution)};
+    take_part(state, event.a, event.time);
+    const ImpactRecord impact{.offset = event.time, .a = state.bodies.slot[event.a], .face = wall.face, .x = m.x,
+                              .arm = support.normal * static_cast<double>(m.radius), .normal = support.normal};
+    meet_support(state, event.a, support, encounter_of(state, event.a, wall), impact, outcome);
+}
+
+/// Two bodies that both move.
+template <class Real>
+void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, ImpactRecord impact, Outcome& outcome) {
+    release(state.bodies, a);
+    release(state.bodies, b);
+    Encounter encounter = encounter_of(state, a, b);
+    const bool collapse_a = collapses(state, a, impact.offset);
+    const bool collapse_b = collapses(state, b, impact.offset);
+    apply_tc_rule(collapse_a || collapse_b, encounter, outcome);
+    Vec3 v_a = meeting.v_a;
+    Vec3 v_b = meeting.v_b;
+    const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
+                                              encounter.restitution, encounter.friction);
+    set_velocity(state, a, v_a);
+    set_velocity(state, b, v_b);
+    write_down(state, impact, response, outcome);
+}
+
+template <class Real>
+void execute_pair(State<Real>& state, const Event& event, Outcome& outcome) {
+    const Bodies<Real>& bodies = state.bodies;
+    const bool in_order = bodies.slot[event.a] < bodies.slot[event.b];
+    const Index a = in_order ? event.a : event.b;
+    const Index b = in_order ? event.b : event.a;
+    const Meeting meeting = meeting_at(state, a, b, event.time);
+    const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
+    take_part(state, a, event.time);
+    take_part(state, b, event.time);
+    const ImpactRecord impact{.offset = event.time, .a = bodies.slot[a], .b = bodies.slot[b], .x = bodies.motion[a].x,
+                              .arm = n * static_cast<double>(bodies.motion[a].radius), .normal = n};
+    if (bodies.kind[a] == Kind::fixed) {
+        meet_support(state, b, {bodies.slot[a], -n}, encounter_of(state, a, b), impact, outcome);
+    } else if (bodies.kind[b] == Kind::fixed) {
+        meet_support(state, a, {bodies.slot[b], n}, encounter_of(state, a, b), impact, outcome);
+    } else {
+        meet_body(state, a, b, meeting, impact, outcome);
+    }
+}
+
+} // namespace
+
+template <class Real>
+void execute(State<Real>& state, const Event& event, Outcome& outcome) {
+    if (event.at_wall()) {
+        execute_wall(state, event, outcome);
+    } else {
+        execute_pair(state, event, outcome);
+    }
+}
+
+template void execute(State<float>&, const Event&, Outcome&);
+template void execute(State<double>&, const Event&, Outcome&);
+
+} // namespace carom::core

@@ -1,0 +1,40 @@
+/// \file
+/// What an impact does to its bodies.
+#pragma once
+
+#include "impact/events.hpp"
+#include "impact/prediction.hpp"
+
+#include <vector>
+
+namespace carom::core {
+
+/// An impact with bodies by slot, lengths in m and positions in units: what is recorded while the engine runs.
+struct ImpactRecord {
+    double offset = 0; ///< s since the start of the step
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;    ///< not used at a face
+    std::int32_t face = -1;
+    Int3 x{};               ///< units, of body a
+    Vec3 arm{};             ///< m, from there to the point of contact
+    Vec3 normal{};
+    double impulse = 0;
+    double approach_speed = 0;
+    double energy_lost = 0;
+};
+
+/// What the impacts of a step add up to, and where they are written down.
+struct Outcome {
+    std::uint64_t impacts = 0;
+    std::uint64_t face_impacts = 0;
+    std::uint64_t tc_conversions = 0;
+    bool record = true;
+    double least_impulse = 0; ///< N s
+    std::vector<ImpactRecord> records;
+};
+
+/// Carries out an event that is not outdated: brings its bodies to its time and changes their velocities.
+template <class Real>
+void execute(State<Real>& state, const Event& event, Outcome& outcome);
+
+} // namespace carom::core

@@ -1,0 +1,56 @@
+/// \file
+/// The serial reference: one event queue, every impact in the order of (time, ids). Every other way to resolve
+/// impacts has to give the same bits.
+#pragma once
+
+#include "impact/events.hpp"
+#include "impact/response.hpp"
+#include "space/cells.hpp"
+#include "space/ticks.hpp"
+
+namespace carom::core {
+
+/// How far one window got.
+struct Progress {
+    double reached = 0;            ///< s since the start of the step
+    bool work_cap_reached = false;
+    bool edge_reached = false;
+};
+
+/// Resolves the impacts of windows, one after the other. Keeps its buffers.
+template <class Real>
+class SerialSolver {
+public:
+    explicit SerialSolver(State<Real>& state) : state_(state), queue_(state.bodies) {}
+
+    /// Executes all impacts in [from, to] (s since the start of the step).
+    Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
+
+    [[nodiscard]] const Cells& cells() const { return cells_; }
+    /// Times of impact computed so far.
+    [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
+    /// Wall-clock seconds spent so far.
+    [[nodiscard]] const PhaseTimes& seconds() const { return seconds_; }
+
+private:
+    void build_cells(const Census& census, double from, double to);
+    void predict_first(double from, double to);
+    Progress run_queue(double to, std::uint64_t work_cap, Outcome& outcome);
+
+    /// Registers the new motion of a body at `now`; false if it leaves the representable world before `to`.
+    bool register_motion(Index body, double now, double to);
+    void predict_again(Index body, Index except, double now, double to);
+    void predict_walls(Index body, double to);
+    void predict(Index a, Index b, double now, double to);
+
+    State<Real>& state_;
+    Ticks ticks_;
+    Cells cells_;
+    EventQueue<Real> queue_;
+    std::vector<SweptBox> boxes_;
+    std::vector<Cells::Pair> pairs_;
+    std::uint64_t predictions_ = 0;
+    PhaseTimes seconds_{};
+};
+
+} // namespace carom::core

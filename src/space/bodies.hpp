@@ -1,0 +1,134 @@
+/// \file
+/// Storage of all bodies: arrays in spatial order, and the table of ids that finds them there.
+#pragma once
+
+#include "space/motion.hpp"
+
+#include <carom/body.hpp>
+
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace carom::core {
+
+using Index = std::uint32_t; ///< place of a body in the arrays; changes when bodies are put in spatial order
+inline constexpr Index no_index = std::numeric_limits<Index>::max();
+
+/// What moves a body between impacts.
+enum class Kind : std::uint8_t {
+    free,   ///< uniform gravity
+    fixed,  ///< nothing: a static body
+    held,   ///< its Hold: it rests against faces or static bodies
+};
+
+/// Counts a body's impacts in quick succession: state of the TC rule.
+struct Flight {
+    double last_impact = 0;          ///< s since the start of the step; means nothing while `quick_impacts` is 0
+    std::uint32_t quick_impacts = 0; ///< impacts so far whose flights in between were shorter than collapse_time
+};
+
+/// What a held body rests against.
+struct Support {
+    std::uint32_t code = 0; ///< wall_bit | index of a wall of the Bounds, or the slot of a static body
+    Vec3 normal{};          ///< unit vector from the body into the support
+
+    static constexpr std::uint32_t wall_bit = 0x80000000U;
+    [[nodiscard]] bool is_wall() const { return (code & wall_bit) != 0; }
+    [[nodiscard]] std::uint32_t wall() const { return code & ~wall_bit; }
+};
+
+/// Why a held body does not fall, and how it moves meanwhile. Derived from the supports' codes and the body's motion
+/// at the start of each step, and when the body comes to rest.
+struct Hold {
+    std::vector<Support> supports; ///< one to three
+    Vec3 acceleration{};           ///< m/s^2, along the supports
+    Vec3 friction{};               ///< m/s^2, the part of it that is friction
+    bool sticks = false;           ///< friction outweighs what pulls along the supports
+};
+
+/// A slot of the table of ids.
+struct Slot {
+    Index index = no_index; ///< where the body is; no_index if the slot is free
+    std::uint16_t generation = 0;
+};
+
+/// All bodies of a world, one element of each array per body.
+template <class Real>
+struct Bodies {
+    std::vector<Motion<Real>> motion;
+    std::vector<Real> mass; ///< kg; infinity for static bodies
+    std::vector<Real> restitution;
+    std::vector<Real> friction;
+    std::vector<std::uint32_t> material;
+    std::vector<std::uint64_t> user_data;
+    std::vector<Flight> flight;
+    std::vector<Kind> kind;
+    std::vector<std::uint32_t> version; ///< changes with every impact of the body: outdates its events
+    std::vector<std::uint32_t> slot;
+    std::vector<Int3> previous;         ///< units, at the start of the last step; in use only if `interpolating`
+    bool interpolating = false;
+
+    std::map<std::uint32_t, Hold> holds; ///< of the held bodies, by slot
+    std::vector<Slot> slots;
+    std::vector<std::uint32_t> free_slots; ///< last in, first out
+
+    [[nodiscard]] std::size_t size() const { return motion.size(); }
+
+    /// Calls f with every per-body array that is in use.
+    template <class F>
+    void for_each_array(F&& f) {
+        f(motion);
+        f(mass);
+        f(restitution);
+        f(friction);
+        f(material);
+        f(user_data);
+        f(flight);
+        f(kind);
+        f(version);
+        f(slot);
+        if (interpolating) f(previous);
+    }
+};
+
+template <class Real>
+const Hold& hold_of(const Bodies<Real>& bodies, Index index) {
+    return bodies.holds.find(bodies.slot[index])->second;
+}
+
+/// Lets a held body go; any other stays as it is.
+template <class Real>
+void release(Bodies<Real>& bodies, Index index) {
+    if (bodies.kind[index] != Kind::held) return;
+    bodies.holds.erase(bodies.slot[index]);
+    bodies.kind[index] = Kind::free;
+}
+
+/// Takes the body at `index` out; the last body moves into its place. The slot becomes free.
+template <class Real>
+void remove_body(Bodies<Real>& bodies, Index index) {
+    release(bodies, index);
+    const std::uint32_t slot = bodies.slot[index];
+    bodies.slots[bodies.slot.back()].index = index;
+    bodies.for_each_array([index](auto& array) {
+        array[index] = array.back();
+        array.pop_back();
+    });
+    bodies.slots[slot].index = no_index;
+    ++bodies.slots[slot].generation;
+    bodies.free_slots.push_back(slot);
+}
+
+/// Puts the bodies into the order of the list: body `order[k]` comes to place k.
+template <class Real>
+void reorder(Bodies<Real>& bodies, const std::vector<Index>& order) {
+    bodies.for_each_array([&order](auto& array) {
+        auto sorted = array;
+        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = array[order[k]];
+        array.swap(sorted);
+    });
+    for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.slot[k]].index = k;
+}
+
+} // namespace carom::core

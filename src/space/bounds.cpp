@@ -1,0 +1,117 @@
+#include "space/bounds.hpp"
+
+#include "space/checks.hpp"
+
+#include <carom/collision.hpp>
+
+namespace carom::core {
+
+namespace {
+
+void check_surface(const Surface& surface, const std::string& where, std::size_t index) {
+    if (surface.restitution) check_fraction(*surface.restitution, where + ".restitution", index);
+    if (surface.friction) check_not_negative(*surface.friction, where + ".friction", index);
+}
+
+bool is_periodic(const Box& box, std::size_t axis) {
+    const bool low = box.faces[2 * axis].kind == FaceKind::periodic;
+    const bool high = box.faces[2 * axis + 1].kind == FaceKind::periodic;
+    if (low != high) {
+        throw Error(ErrorCode::out_of_range, "region.faces", "periodic faces come in opposite pairs",
+                    low ? 2 * axis + 1 : 2 * axis);
+    }
+    return low;
+}
+
+std::int64_t checked_period(std::int64_t low, std::int64_t high) {
+    constexpr std::int64_t longest = std::int64_t{1} << 62;
+    std::int64_t length = 0;
+    if (__builtin_sub_overflow(high, low, &length) || length > longest) {
+        throw Error(ErrorCode::out_of_range, "region.max", "a periodic side must be shorter than half the world");
+    }
+    return length;
+}
+
+Vec3 axis_vector(std::size_t axis, double length) {
+    return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
+}
+
+/// -1 unless the unit vector lies along an axis.
+int axis_of(const Vec3& unit) {
+    if (unit.y == 0 && unit.z == 0) return 0;
+    if (unit.x == 0 && unit.z == 0) return 1;
+    if (unit.x == 0 && unit.y == 0) return 2;
+    return -1;
+}
+
+} // namespace
+
+Bounds::Bounds(const Region& region, const Resolution& resolution, const Int3& origin) {
+    if (const auto* box = std::get_if<Box>(&region)) add_box(*box, resolution, origin);
+    if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) add_planes(*planes, resolution, origin);
+    if (const auto* shell = std::get_if<Shell>(&region)) add_shell(*shell, resolution, origin);
+}
+
+void Bounds::add_box(const Box& box, const Resolution& resolution, const Int3& origin) {
+    const Int3 low = position_units(box.min, resolution, origin, "region.min");
+    const Int3 high = position_units(box.max, resolution, origin, "region.max");
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        if (component(high, axis) <= component(low, axis)) {
+            throw Error(ErrorCode::out_of_range, "region.max", "must be greater than region.min in every component");
+        }
+        check_surface(box.faces[2 * k].surface, "region.faces", 2 * k);
+        check_surface(box.faces[2 * k + 1].surface, "region.faces", 2 * k + 1);
+        if (is_periodic(box, k)) {
+            period_[k] = checked_period(component(low, axis), component(high, axis));
+            component(period_start_, axis) = component(low, axis);
+            continue;
+        }
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+            const Face& face = box.faces[2 * k + side];
+            if (face.kind != FaceKind::reflecting) continue;
+            walls_.push_back({side == 0 ? low : high, axis_vector(k, side == 0 ? -1 : 1), axis, face.surface,
+                              static_cast<std::int32_t>(2 * k + side)});
+        }
+    }
+}
+
+void Bounds::add_planes(const std::vector<Plane>& planes, const Resolution& resolution, const Int3& origin) {
+    constexpr std::size_t most = 64;
+    if (planes.size() > most) throw Error(ErrorCode::out_of_range, "region.planes", "at most 64 planes");
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Plane& plane = planes[i];
+        check_finite(plane.normal, "region.normal", i);
+        if (plane.normal == Vec3{}) throw Error(ErrorCode::out_of_range, "region.normal", "must not be zero", i);
+        check_surface(plane.surface, "region.surface", i);
+        const Vec3 normal = contact_normal(-plane.normal, Vec3{});
+        walls_.push_back({position_units(plane.point, resolution, origin, "region.point", i), normal, axis_of(normal),
+                          plane.surface, static_cast<std::int32_t>(i)});
+    }
+}
+
+void Bounds::add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin) {
+    check_positive(shell.radius, "region.radius");
+    check_surface(shell.surface, "region.surface", Error::no_index);
+    shape_ = Shape::shell;
+    shell_radius_ = shell.radius;
+    walls_.push_back({position_units(shell.centre, resolution, origin, "region.centre"), {}, -1, shell.surface, 0});
+}
+
+Int3 Bounds::wrapped(Int3 x) const {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t length = period(axis);
+        if (length == 0) continue;
+        std::int64_t offset = (component(x, axis) - period_start(axis)) % length;
+        if (offset < 0) offset += length;
+        component(x, axis) = period_start(axis) + offset;
+    }
+    return x;
+}
+
+Vec3 Bounds::normal(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) const {
+    if (shape_ == Shape::flat) return wall.normal;
+    return contact_normal(from_centre(wall, x, d, resolution), Vec3{});
+}
+
+} // namespace carom::core

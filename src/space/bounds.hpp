@@ -1,0 +1,78 @@
+/// \file
+/// The region in the world's own units: gaps and normals of its faces, and periodic images.
+#pragma once
+
+#include "space/motion.hpp"
+
+#include <carom/region.hpp>
+
+#include <array>
+#include <vector>
+
+namespace carom::core {
+
+/// The faces and periods of a Region, in units of the resolution.
+class Bounds {
+public:
+    enum class Shape : std::uint8_t { flat, shell };
+
+    /// One reflecting face. A flat face lets bodies be where normal . (x - point) < 0.
+    struct Wall {
+        Int3 point{};         ///< units; a point of a flat face, or the centre of the shell
+        Vec3 normal{};        ///< unit vector into the face; not used by the shell
+        int axis = -1;        ///< 0, 1, 2 if the normal is along an axis, else -1
+        Surface surface{};
+        std::int32_t face = 0; ///< number in the public API
+    };
+
+    Bounds() = default;
+    /// Throws Error naming the member of the region that is refused; `origin` in units.
+    Bounds(const Region& region, const Resolution& resolution, const Int3& origin);
+
+    [[nodiscard]] Shape shape() const { return shape_; }
+    [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
+    [[nodiscard]] double shell_radius() const { return shell_radius_; }
+
+    /// Units; 0 along an axis that is not periodic.
+    [[nodiscard]] std::int64_t period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
+    [[nodiscard]] bool any_periodic() const { return period_[0] != 0 || period_[1] != 0 || period_[2] != 0; }
+    /// Units; the lower side of a periodic axis.
+    [[nodiscard]] std::int64_t period_start(int axis) const { return component(period_start_, axis); }
+
+    /// Brings a position into the periodic box: exact.
+    [[nodiscard]] Int3 wrapped(Int3 x) const;
+
+    /// Unit vector from a body at `x + d` (units + m) into the face.
+    [[nodiscard]] Vec3 normal(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) const;
+    /// m between the face and the surface of a body of `radius` at `x + d` (units + m); negative: through the face.
+    [[nodiscard]] double gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+                             const Resolution& resolution) const;
+    /// m from the shell's centre to a body at `x + d`.
+    static Vec3 from_centre(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) {
+        return to_metres(x - wall.point, resolution) + d;
+    }
+
+private:
+    void add_box(const Box& box, const Resolution& resolution, const Int3& origin);
+    void add_planes(const std::vector<Plane>& planes, const Resolution& resolution, const Int3& origin);
+    void add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin);
+
+    Shape shape_ = Shape::flat;
+    std::vector<Wall> walls_;
+    std::array<std::int64_t, 3> period_{};
+    Int3 period_start_{};
+    double shell_radius_ = 0;
+};
+
+inline double Bounds::gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+                          const Resolution& resolution) const {
+    if (shape_ == Shape::shell) return (shell_radius_ - radius) - length(from_centre(wall, x, d, resolution));
+    if (wall.axis >= 0) {
+        const double depth = metres_between(component(x, wall.axis), component(wall.point, wall.axis), resolution) -
+                             component(d, wall.axis);
+        return (component(wall.normal, wall.axis) > 0 ? depth : -depth) - radius;
+    }
+    return -dot(wall.normal, to_metres(x - wall.point, resolution) + d) - radius;
+}
+
+} // namespace carom::core

@@ -1,0 +1,46 @@
+/// \file
+/// Where bodies are put between steps: whether they overlap others.
+#pragma once
+
+#include "space/cells.hpp"
+#include "space/state.hpp"
+#include "space/ticks.hpp"
+
+#include <optional>
+
+namespace carom::core {
+
+/// An index of all bodies that grows as bodies are added, so that adding one by one stays cheap.
+template <class Real>
+class Placement {
+public:
+    explicit Placement(const State<Real>& state) : state_(state) {}
+
+    /// To be called when bodies have moved, or changed places in memory.
+    void forget() { valid_ = false; }
+
+    /// A body that overlaps body `i` by more than rounding, if there is one; of several the one with the least place in
+    /// memory. Bodies from `end` on do not count. Static bodies may overlap each other.
+    std::optional<Index> overlapping(Index i, Index end);
+
+    /// Takes body `i` in after it was moved, or all bodies up to it if it is new.
+    void put(Index i);
+
+private:
+    void rebuild();
+    [[nodiscard]] SweptBox box_of(Index i) const;
+
+    const State<Real>& state_;
+    Ticks ticks_;
+    Cells cells_;
+    bool valid_ = false;
+};
+
+/// Largest gap below zero (m) that counts as touching: a rounding, not an overlap.
+template <class Real>
+double touching_tolerance(const State<Real>& state, double smaller_diameter) {
+    const double relative = std::is_same_v<Real, float> ? 1e-6 : 1e-9;
+    return std::max(relative * smaller_diameter, 2 * state.resolution.metres);
+}
+
+} // namespace carom::core

@@ -1,0 +1,152 @@
+/// \file
+/// Everything that a step reads and writes: the bodies, what surrounds them, and the books.
+#pragma once
+
+#include "space/bodies.hpp"
+#include "space/bounds.hpp"
+#include "space/sum.hpp"
+
+#include <carom/events.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace carom::core {
+
+/// An attractor where it is during one kick.
+struct PointField {
+    Int3 x{};                            ///< units
+    double strength = 0;                 ///< m^3/s^2
+    double softening = 0;                ///< m
+    std::uint32_t carrier = 0xffffffffU; ///< slot of the body that carries it and feels nothing of it
+};
+
+/// The parameters of the motion.
+struct Laws {
+    Vec3 gravity{};           ///< m/s^2
+    double rest_time = 0;     ///< s
+    double collapse_time = 0; ///< s
+    double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
+    std::vector<MaterialRule> rules{};
+    std::vector<PointField> fields{};
+};
+
+/// The ledger while it is written: sums with their carries.
+struct Books {
+    std::uint64_t impacts = 0;
+    std::uint64_t face_impacts = 0;
+    Sum lost_to_restitution;
+    Sum lost_to_friction;
+    Sum lost_to_drag;
+    Sum mass_time;           ///< kg s under uniform gravity; its impulse is this times the acceleration
+    VectorSum outer_impulse; ///< N s, without uniform gravity's of the present step
+};
+
+template <class Real>
+struct State {
+    Bodies<Real> bodies;
+    Bounds bounds;
+    Resolution resolution;
+    Laws laws;
+    Books books;
+};
+
+/// e and mu of an encounter.
+struct Encounter {
+    double restitution = 0;
+    double friction = 0;
+};
+
+/// How two bodies meet: the larger e, the geometric mean of mu, unless a rule says otherwise.
+template <class Real>
+Encounter encounter_of(const State<Real>& state, Index a, Index b) {
+    const Bodies<Real>& bodies = state.bodies;
+    for (const MaterialRule& rule : state.laws.rules) {
+        const bool straight = rule.a == bodies.material[a] && rule.b == bodies.material[b];
+        const bool crossed = rule.a == bodies.material[b] && rule.b == bodies.material[a];
+        if (straight || crossed) return {rule.restitution, rule.friction};
+    }
+    const auto mu_a = static_cast<double>(bodies.friction[a]);
+    const auto mu_b = static_cast<double>(bodies.friction[b]);
+    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])), std::sqrt(mu_a * mu_b)};
+}
+
+/// How a body meets a face: the face's e and mu where it has them, else the body's.
+template <class Real>
+Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall& wall) {
+    const Bodies<Real>& bodies = state.bodies;
+    return {wall.surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
+            wall.surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
+}
+
+/// What accelerates a body between impacts, m/s^2.
+template <class Real>
+Vec3 acceleration_of(const State<Real>& state, Index i) {
+    switch (state.bodies.kind[i]) {
+    case Kind::free: return state.laws.gravity;
+    case Kind::held: return hold_of(state.bodies, i).acceleration;
+    case Kind::fixed: break;
+    }
+    return {};
+}
+
+/// Acceleration by all attractors at a body, m/s^2.
+template <class Real>
+Vec3 attraction(const State<Real>& state, Index i) {
+    Vec3 sum{};
+    for (const PointField& field : state.laws.fields) {
+        if (field.carrier == state.bodies.slot[i]) continue;
+        const Vec3 d = to_metres(field.x - state.bodies.motion[i].x, state.resolution);
+        const double distance_squared = length_squared(d) + field.softening * field.softening;
+        if (distance_squared > 0) sum += d * (field.strength / (distance_squared * std::sqrt(distance_squared)));
+    }
+    return sum;
+}
+
+/// Shortest way along periodic axes: subtracts whole periods from a difference of positions (units) such that
+/// `difference` + `d` (m) comes closest to zero, shifted by `images` periods more.
+inline Int3 nearest_image(const Bounds& bounds, const Resolution& resolution, Int3 difference, const Vec3& d,
+                          const Int3& images = {}) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t period = bounds.period(axis);
+        if (period == 0) continue;
+        const double full = static_cast<double>(component(difference, axis)) +
+                            component(d, axis) * resolution.per_metre;
+        const auto turns = static_cast<std::int64_t>(std::rint(full / static_cast<double>(period)));
+        component(difference, axis) -= (turns - component(images, axis)) * period;
+    }
+    return difference;
+}
+
+/// m from body a to body b at time `s` when they have moved by `d_a` and `d_b` (m) since their own times.
+template <class Real>
+Vec3 separation(const State<Real>& state, Index a, Index b, const Vec3& d_a, const Vec3& d_b) {
+    Int3 difference = state.bodies.motion[b].x - state.bodies.motion[a].x;
+    if (state.bounds.any_periodic()) {
+        difference = nearest_image(state.bounds, state.resolution, difference, d_b - d_a);
+    }
+    return to_metres(difference, state.resolution) + (d_b - d_a);
+}
+
+/// Brings a body to time `s`: the one place that rounds a position, beside impacts' new velocities.
+template <class Real>
+void advance(State<Real>& state, Index i, double s) {
+    Bodies<Real>& bodies = state.bodies;
+    Motion<Real>& m = bodies.motion[i];
+    const double duration = s - m.t;
+    const Vec3 a = acceleration_of(state, i);
+    const Vec3 v = velocity_of(m);
+    const Vec3 d = displacement(v, a, duration);
+    m.x = m.x + round_to_units(d, state.resolution);
+    m.t = s;
+    if (bodies.kind[i] == Kind::free) {
+        state.books.mass_time.add(static_cast<double>(bodies.mass[i]) * duration);
+    } else {
+        const auto mass = static_cast<double>(bodies.mass[i]);
+        state.books.outer_impulse.add(a * (mass * duration));
+        state.books.lost_to_friction.add(-mass * dot(hold_of(bodies, i).friction, d));
+    }
+    if (a != Vec3{}) m.v = rounded<Real>(v + a * duration);
+}
+
+} // namespace carom::core

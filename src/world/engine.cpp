@@ -1,0 +1,153 @@
+#include "world/engine.hpp"
+
+#include "space/checks.hpp"
+
+namespace carom::core {
+
+namespace {
+
+double checked_resolution(const WorldOptions& options) {
+    if (options.resolution == 0) {
+        const bool is_single = options.precision == Precision::single_precision;
+        return std::ldexp(1.0, is_single ? -20 : -40);
+    }
+    check_positive(options.resolution, "resolution");
+    int exponent = 0;
+    if (std::frexp(options.resolution, &exponent) != 0.5) {
+        throw Error(ErrorCode::out_of_range, "resolution", "must be a power of two, got " + shown(options.resolution));
+    }
+    if (exponent < -200 || exponent > 200) {
+        throw Error(ErrorCode::out_of_range, "resolution", "must lie in [2^-200, 2^200] m");
+    }
+    return options.resolution;
+}
+
+void check_rules(const std::vector<MaterialRule>& rules) {
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        check_fraction(rules[i].restitution, "material_rules.restitution", i);
+        check_not_negative(rules[i].friction, "material_rules.friction", i);
+    }
+}
+
+} // namespace
+
+void check_drag(const Drag& drag) {
+    check_not_negative(drag.linear, "drag.linear");
+    check_not_negative(drag.quadratic, "drag.quadratic");
+}
+
+Int3 origin_units(const std::array<std::int64_t, 3>& origin, const Resolution& resolution) {
+    Int3 units;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t metres = origin[static_cast<std::size_t>(axis)];
+        const double scaled = static_cast<double>(metres) * resolution.per_metre;
+        if (!(std::abs(scaled) < static_cast<double>(world_edge))) {
+            throw Error(ErrorCode::out_of_world, "origin", "outside the world", static_cast<std::size_t>(axis));
+        }
+        int exponent = 0;
+        std::frexp(resolution.per_metre, &exponent);
+        // per_metre = 2^(exponent - 1)
+        const auto shift = static_cast<unsigned>(std::abs(exponent - 1));
+        component(units, axis) = exponent >= 1 ? metres << shift : metres >> shift;
+        if (exponent < 1 && component(units, axis) << shift != metres) {
+            throw Error(ErrorCode::out_of_range, "origin", "must be a multiple of the resolution",
+                        static_cast<std::size_t>(axis));
+        }
+    }
+    return units;
+}
+
+Setting checked_setting(WorldOptions options) {
+    Setting setting;
+    if (options.precision != Precision::single_precision && options.precision != Precision::double_precision) {
+        throw Error(ErrorCode::out_of_range, "precision", "must be single or double");
+    }
+    const double resolution = checked_resolution(options);
+    setting.resolution = {resolution, 1 / resolution};
+    setting.origin = setting.first_origin = origin_units(options.origin, setting.resolution);
+    check_finite(options.gravity, "gravity");
+    check_drag(options.drag);
+    check_rules(options.material_rules);
+    check_positive(options.rest_time, "rest_time");
+    check_positive(options.collapse_time, "collapse_time");
+    check_not_negative(options.least_recorded_impulse, "least_recorded_impulse");
+    if (options.min_windows < 1) throw Error(ErrorCode::out_of_range, "min_windows", "must be >= 1, got 0");
+    setting.options = std::move(options);
+    return setting;
+}
+
+template <class Real>
+Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
+    : setting_(std::move(setting)), world_tag_(world_tag), solver_(state_), placement_(state_) {
+    const WorldOptions& options = setting_.options;
+    state_.resolution = setting_.resolution;
+    state_.bounds = Bounds(options.region, setting_.resolution, setting_.origin);
+    state_.laws.gravity = options.gravity;
+    state_.laws.rest_time = options.rest_time;
+    state_.laws.collapse_time = options.collapse_time;
+    state_.laws.rules = options.material_rules;
+    state_.bodies.interpolating = options.interpolation;
+    outcome_.record = options.record_impacts;
+    outcome_.least_impulse = options.least_recorded_impulse;
+}
+
+template <class Real>
+Engine<Real>::Engine(const Engine& other)
+    : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
+      clock_(other.clock_), ledger_(other.ledger_), report_(other.report_), outcome_(other.outcome_),
+      impacts_(other.impacts_), solver_(state_), placement_(state_), last_step_(other.last_step_),
+      steps_since_order_(other.steps_since_order_) {}
+
+template <class Real>
+void Engine<Real>::set_gravity(const Vec3& gravity) {
+    check_finite(gravity, "gravity");
+    setting_.options.gravity = state_.laws.gravity = gravity;
+}
+
+template <class Real>
+void Engine<Real>::set_drag(const Drag& drag) {
+    check_drag(drag);
+    setting_.options.drag = drag;
+}
+
+template <class Real>
+void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
+    for (std::size_t i = 0; i < attractors.size(); ++i) {
+        const Attractor& attractor = attractors[i];
+        check_finite(attractor.strength, "attractor.strength", i);
+        check_not_negative(attractor.softening, "attractor.softening", i);
+        if (!attractor.body.is_set()) {
+            position_units(attractor.position, setting_.resolution, setting_.origin, "attractor.position", i);
+        } else if (!contains(attractor.body)) {
+            throw Error(ErrorCode::unknown_body, "attractor.body", "there is no such body in this world", i);
+        }
+    }
+    attractors_.assign(attractors.begin(), attractors.end());
+}
+
+template <class Real>
+void Engine<Real>::set_origin(const std::array<std::int64_t, 3>& origin) {
+    const Int3 units = origin_units(origin, setting_.resolution);
+    const Vec3 shift = to_metres(setting_.origin - units, setting_.resolution);
+    for (Attractor& attractor : attractors_) attractor.position += shift;
+    setting_.options.origin = origin;
+    setting_.origin = units;
+}
+
+template <class Real>
+void Engine<Real>::set_recording(bool record_impacts, double least_recorded_impulse) {
+    check_not_negative(least_recorded_impulse, "least_recorded_impulse");
+    setting_.options.record_impacts = outcome_.record = record_impacts;
+    setting_.options.least_recorded_impulse = outcome_.least_impulse = least_recorded_impulse;
+}
+
+template <class Real>
+void Engine<Real>::set_min_windows(std::uint32_t min_windows) {
+    if (min_windows < 1) throw Error(ErrorCode::out_of_range, "min_windows", "must be >= 1, got 0");
+    setting_.options.min_windows = min_windows;
+}
+
+template class Engine<float>;
+template class Engine<double>;
+
+} // namespace carom::core

@@ -1,0 +1,134 @@
+/// \file
+/// The world behind carom::World, for one precision.
+#pragma once
+
+#include "impact/serial.hpp"
+#include "space/placement.hpp"
+#include "space/state.hpp"
+#include "world/clock.hpp"
+
+#include <carom/world.hpp>
+
+namespace carom::core {
+
+/// What does not depend on the precision and is checked before a world is made.
+struct Setting {
+    WorldOptions options;
+    Resolution resolution;
+    Int3 origin{};       ///< units; the API's positions are relative to it
+    Int3 first_origin{}; ///< units; the origin at creation, where potential energy is zero
+};
+
+/// Throws Error naming the option that is refused.
+Setting checked_setting(WorldOptions options);
+/// The origin of the API in units. Throws Error{out_of_range}.
+Int3 origin_units(const std::array<std::int64_t, 3>& origin, const Resolution& resolution);
+void check_drag(const Drag& drag);
+
+/// The functions of World, which documents them.
+template <class Real>
+class Engine {
+public:
+    /// `world_tag` marks the ids that this world gives out.
+    Engine(Setting setting, std::uint16_t world_tag);
+    Engine(const Engine& other);
+    Engine& operator=(const Engine&) = delete;
+
+    // engine_bodies.cpp
+    std::vector<BodyId> add(const ConstBodyColumns& columns, Overlap overlap);
+    void get(std::span<const BodyId> ids, const BodyColumns& columns) const;
+    void set(std::span<const BodyId> ids, const ConstBodyColumns& columns, Overlap overlap);
+    void remove(std::span<const BodyId> ids);
+    void change_velocities(std::span<const BodyId> ids, std::span<const Vec3> changes, bool are_impulses);
+    [[nodiscard]] bool contains(BodyId id) const noexcept;
+    [[nodiscard]] bool held(BodyId id) const;
+    [[nodiscard]] std::size_t size() const noexcept { return state_.bodies.size(); }
+    [[nodiscard]] std::vector<BodyId> ids() const;
+
+    // engine_step.cpp
+    const StepReport& step(double dt);
+    void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;
+    [[nodiscard]] const Clock& clock() const noexcept { return clock_; }
+    [[nodiscard]] const StepReport& report() const noexcept { return report_; }
+    [[nodiscard]] std::span<const Impact> impacts() const noexcept { return impacts_; }
+
+    // engine.cpp
+    [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
+    void set_gravity(const Vec3& gravity);
+    void set_drag(const Drag& drag);
+    void set_attractors(std::span<const Attractor> attractors);
+    [[nodiscard]] std::span<const Attractor> attractors() const noexcept { return attractors_; }
+    void set_origin(const std::array<std::int64_t, 3>& origin);
+    void set_recording(bool record_impacts, double least_recorded_impulse);
+    void set_work_cap(std::uint64_t work_cap) { setting_.options.work_cap = work_cap; }
+    void set_min_windows(std::uint32_t min_windows);
+
+    // engine_sums.cpp
+    [[nodiscard]] Energy energy() const;
+    [[nodiscard]] Vec3 momentum() const;
+    [[nodiscard]] Vec3 angular_momentum(const Vec3& about) const;
+    [[nodiscard]] Vec3 centre_of_mass() const;
+    [[nodiscard]] const Ledger& ledger() const noexcept { return ledger_; }
+
+    // snapshot.cpp
+    [[nodiscard]] std::vector<std::byte> save() const;
+    /// `payload` starts after the setting. Throws Error{bad_data}.
+    void load(std::span<const std::byte> payload);
+    [[nodiscard]] std::uint64_t hash() const;
+
+private:
+    // engine_bodies.cpp
+    [[nodiscard]] Index index_of(BodyId id, std::size_t place) const;
+    [[nodiscard]] std::vector<Index> indices_of(std::span<const BodyId> ids) const;
+    [[nodiscard]] BodyId id_of(std::uint32_t slot) const;
+    void check_values(const ConstBodyColumns& columns, std::size_t count) const;
+    void check_radius(double radius, std::size_t place) const;
+    void check_inside(const Motion<Real>& motion, std::size_t place) const;
+    [[nodiscard]] std::vector<Int3> positions_of(const ConstBodyColumns& columns) const;
+    void append(const ConstBodyColumns& columns, const std::vector<Int3>& positions);
+    void check_overlaps_of_new(std::size_t first_new);
+    BodyId give_id(Index index);
+    void check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const;
+    void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap);
+    void check_moved(const std::vector<Index>& indices);
+    void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
+    [[nodiscard]] Vec3 api_position(const Int3& x) const { return to_metres(x - setting_.origin, setting_.resolution); }
+
+    // engine_step.cpp
+    void check_step(double dt);
+    void begin_step(double dt);
+    double resolve_impacts(const Census& census, double dt);
+    void finish_bodies(double reached);
+    void forget_old_flights(double reached);
+    void keep_spatial_order();
+    void finish_step(double dt, double reached);
+    void publish_impacts(double start);
+
+    // forces.cpp
+    [[nodiscard]] std::vector<PointField> placed_fields() const;
+    void first_kick(double duration);
+    void last_kick(double duration);
+    void attract(double duration);
+    void drag(double duration);
+
+    // snapshot.cpp
+    template <class Archive>
+    void transfer(Archive& archive);
+    void check_loaded() const;
+
+    Setting setting_;
+    std::uint16_t world_tag_;
+    State<Real> state_;
+    std::vector<Attractor> attractors_;
+    Clock clock_;
+    Ledger ledger_;
+    StepReport report_;
+    Outcome outcome_;
+    std::vector<Impact> impacts_;
+    SerialSolver<Real> solver_;
+    Placement<Real> placement_;
+    double last_step_ = 0;                ///< s, how far the last step came
+    std::uint32_t steps_since_order_ = 0; ///< since the bodies were last put in spatial order
+};
+
+} // namespace carom::core

@@ -1,0 +1,411 @@
+#include "world/engine.hpp"
+
+#include "contact/rest.hpp"
+#include "space/checks.hpp"
+
+#include <carom/collision.hpp>
+
+namespace carom::core {
+
+namespace {
+
+void check_size(std::size_t size, std::size_t count, const char* field) {
+    if (size == 0 || size == count) return;
+    throw Error(ErrorCode::size_mismatch, field,
+                "has " + std::to_string(size) + " elements, needs " + std::to_string(count) + " or none");
+}
+
+void check_sizes(const auto& columns, std::size_t count) {
+    check_size(columns.position.size(), count, "position");
+    check_size(columns.velocity.size(), count, "velocity");
+    check_size(columns.mass.size(), count, "mass");
+    check_size(columns.radius.size(), count, "radius");
+    check_size(columns.restitution.size(), count, "restitution");
+    check_size(columns.friction.size(), count, "friction");
+    check_size(columns.material.size(), count, "material");
+    check_size(columns.user_data.size(), count, "user_data");
+}
+
+template <class T>
+T element(std::span<const T> column, std::size_t k, const T& fallback) {
+    return column.empty() ? fallback : column[k];
+}
+
+/// A number that the precision of the world can keep: not rounded to zero or infinity.
+template <class Real>
+void check_kept(double value, const char* field, std::size_t place) {
+    const auto kept = static_cast<Real>(value);
+    if (std::isfinite(kept) == std::isfinite(value) && (kept == 0) == (value == 0)) return;
+    throw Error(ErrorCode::out_of_range, field, "does not fit the world's precision, got " + shown(value), place);
+}
+
+template <class Real>
+void check_mass(double mass, std::size_t place) {
+    if (std::isnan(mass)) throw Error(ErrorCode::not_finite, "mass", "must be a number, got " + shown(mass), place);
+    if (!(mass > 0)) throw Error(ErrorCode::out_of_range, "mass", "must be > 0, got " + shown(mass), place);
+    check_kept<Real>(mass, "mass", place);
+}
+
+template <class Real>
+void check_velocity(const Vec3& velocity, std::size_t place) {
+    check_finite(velocity, "velocity", place);
+    check_finite(Vec3{static_cast<double>(static_cast<Real>(velocity.x)),
+                      static_cast<double>(static_cast<Real>(velocity.y)),
+                      static_cast<double>(static_cast<Real>(velocity.z))},
+                 "velocity", place);
+}
+
+} // namespace
+
+template <class Real>
+Index Engine<Real>::index_of(BodyId id, std::size_t place) const {
+    if (!contains(id)) {
+        throw Error(ErrorCode::unknown_body, "id", "there is no such body in this world", place);
+    }
+    return state_.bodies.slots[id.slot].index;
+}
+
+template <class Real>
+std::vector<Index> Engine<Real>::indices_of(std::span<const BodyId> ids) const {
+    std::vector<Index> indices(ids.size());
+    for (std::size_t k = 0; k < ids.size(); ++k) indices[k] = index_of(ids[k], k);
+    return indices;
+}
+
+template <class Real>
+BodyId Engine<Real>::id_of(std::uint32_t slot) const {
+    return {slot, state_.bodies.slots[slot].generation, world_tag_};
+}
+
+template <class Real>
+bool Engine<Real>::contains(BodyId id) const noexcept {
+    if (id.world != world_tag_ || id.slot >= state_.bodies.slots.size()) return false;
+    const Slot& slot = state_.bodies.slots[id.slot];
+    return slot.index != no_index && slot.generation == id.generation;
+}
+
+template <class Real>
+bool Engine<Real>::held(BodyId id) const {
+    return state_.bodies.kind[index_of(id, Error::no_index)] == Kind::held;
+}
+
+template <class Real>
+std::vector<BodyId> Engine<Real>::ids() const {
+    std::vector<BodyId> ids;
+    ids.reserve(size());
+    for (std::uint32_t slot = 0; slot < state_.bodies.slots.size(); ++slot) {
+        if (state_.bodies.slots[slot].index != no_index) ids.push_back(id_of(slot));
+    }
+    return ids;
+}
+
+template <class Real>
+void Engine<Real>::check_radius(double radius, std::size_t place) const {
+    check_not_negative(radius, "radius", place);
+    check_kept<Real>(radius, "radius", place);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double period = static_cast<double>(state_.bounds.period(axis)) * setting_.resolution.metres;
+        if (period == 0 || 4 * radius < period) continue;
+        throw Error(ErrorCode::out_of_range, "radius",
+                    "must be less than a quarter of the periodic side of " + shown(period) + " m, got " +
+                        shown(radius),
+                    place);
+    }
+}
+
+template <class Real>
+void Engine<Real>::check_values(const ConstBodyColumns& columns, std::size_t count) const {
+    check_sizes(columns, count);
+    for (std::size_t k = 0; k < columns.velocity.size(); ++k) check_velocity<Real>(columns.velocity[k], k);
+    for (std::size_t k = 0; k < columns.mass.size(); ++k) check_mass<Real>(columns.mass[k], k);
+    for (std::size_t k = 0; k < columns.radius.size(); ++k) check_radius(columns.radius[k], k);
+    for (std::size_t k = 0; k < columns.restitution.size(); ++k) {
+        check_fraction(columns.restitution[k], "restitution", k);
+    }
+    for (std::size_t k = 0; k < columns.friction.size(); ++k) {
+        check_not_negative(columns.friction[k], "friction", k);
+        check_kept<Real>(columns.friction[k], "friction", k);
+    }
+}
+
+template <class Real>
+std::vector<Int3> Engine<Real>::positions_of(const ConstBodyColumns& columns) const {
+    std::vector<Int3> positions(columns.position.size());
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        positions[k] = state_.bounds.wrapped(
+            position_units(columns.position[k], setting_.resolution, setting_.origin, "position", k));
+    }
+    return positions;
+}
+
+template <class Real>
+void Engine<Real>::check_inside(const Motion<Real>& motion, std::size_t place) const {
+    const auto radius = static_cast<double>(motion.radius);
+    for (const Bounds::Wall& wall : state_.bounds.walls()) {
+        const double gap = state_.bounds.gap(wall, motion.x, {}, radius, setting_.resolution);
+        if (gap >= -touching_tolerance(state_, 2 * radius)) continue;
+        throw Error(ErrorCode::overlap, "position",
+                    "reaches " + shown(-gap) + " m through face " + std::to_string(wall.face) + " of the region",
+                    place);
+    }
+}
+
+template <class Real>
+void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int3>& positions) {
+    Bodies<Real>& bodies = state_.bodies;
+    const Body standard;
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        const double mass = element(columns.mass, k, standard.mass);
+        bodies.motion.push_back({positions[k], 0, rounded<Real>(element(columns.velocity, k, standard.velocity)),
+                                 static_cast<Real>(element(columns.radius, k, standard.radius))});
+        bodies.mass.push_back(static_cast<Real>(mass));
+        bodies.restitution.push_back(static_cast<Real>(element(columns.restitution, k, standard.restitution)));
+        bodies.friction.push_back(static_cast<Real>(element(columns.friction, k, standard.friction)));
+        bodies.material.push_back(element(columns.material, k, standard.material));
+        bodies.user_data.push_back(element(columns.user_data, k, standard.user_data));
+        bodies.flight.emplace_back();
+        bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
+        bodies.version.push_back(0);
+        bodies.slot.push_back(0);
+        if (bodies.interpolating) bodies.previous.push_back(positions[k]);
+    }
+}
+
+template <class Real>
+void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
+    const std::size_t end = size();
+    for (std::size_t i = first_new; i < end; ++i) {
+        if (state_.bodies.kind[i] != Kind::fixed) check_inside(state_.bodies.motion[i], i - first_new);
+    }
+    placement_.put(static_cast<Index>(end - 1));
+    for (std::size_t i = first_new; i < end; ++i) {
+        const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
+        if (!other) continue;
+        const std::string name = *other >= first_new ? "body " + std::to_string(*other - first_new) + " of this call"
+                                                     : "the body in slot " + std::to_string(state_.bodies.slot[*other]);
+        throw Error(ErrorCode::overlap, "position", "overlaps " + name, i - first_new);
+    }
+}
+
+template <class Real>
+BodyId Engine<Real>::give_id(Index index) {
+    Bodies<Real>& bodies = state_.bodies;
+    std::uint32_t slot = 0;
+    if (bodies.free_slots.empty()) {
+        slot = static_cast<std::uint32_t>(bodies.slots.size());
+        bodies.slots.emplace_back();
+    } else {
+        slot = bodies.free_slots.back();
+        bodies.free_slots.pop_back();
+    }
+    bodies.slots[slot].index = index;
+    bodies.slot[index] = slot;
+    return id_of(slot);
+}
+
+template <class Real>
+std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap overlap) {
+    const std::size_t count = columns.position.size();
+    check_values(columns, count);
+    if (count == 0) return {};
+    const Body standard;
+    if (columns.radius.empty()) check_radius(standard.radius, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!std::isinf(element(columns.mass, k, standard.mass))) continue;
+        if (element(columns.velocity, k, Vec3{}) == Vec3{}) continue;
+        throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
+    }
+    const std::size_t first_new = size();
+    constexpr std::size_t most_bodies = 0x7fffffffU;
+    if (count > most_bodies - first_new) {
+        throw Error(ErrorCode::out_of_range, "position", "a world has at most 2^31 - 1 bodies");
+    }
+    append(columns, positions_of(columns));
+    if (overlap == Overlap::refuse) {
+        try {
+            check_overlaps_of_new(first_new);
+        } catch (const Error&) {
+            state_.bodies.for_each_array([first_new](auto& array) { array.resize(first_new); });
+            placement_.forget();
+            throw;
+        }
+    } else {
+        placement_.forget();
+    }
+    std::vector<BodyId> ids(count);
+    for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
+    return ids;
+}
+
+template <class Real>
+void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) const {
+    check_sizes(columns, ids.size());
+    const std::vector<Index> indices = indices_of(ids);
+    const Bodies<Real>& bodies = state_.bodies;
+    const auto fill = [&indices](auto column, auto&& value_of) {
+        for (std::size_t k = 0; k < column.size(); ++k) column[k] = value_of(indices[k]);
+    };
+    fill(columns.position, [&](Index i) { return api_position(bodies.motion[i].x); });
+    fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
+    fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.mass[i]); });
+    fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
+    fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
+    fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
+    fill(columns.material, [&](Index i) { return bodies.material[i]; });
+    fill(columns.user_data, [&](Index i) { return bodies.user_data[i]; });
+}
+
+template <class Real>
+void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const {
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.mass[indices[k]]));
+        const Vec3 velocity = element(columns.velocity, k, velocity_of(state_.bodies.motion[indices[k]]));
+        if (std::isinf(mass) && velocity != Vec3{}) {
+            throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
+        }
+    }
+}
+
+template <class Real>
+void Engine<Real>::check_moved(const std::vector<Index>& indices) {
+    for (const Index i : indices) placement_.put(i);
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (state_.bodies.kind[indices[k]] != Kind::fixed) check_inside(state_.bodies.motion[indices[k]], k);
+        const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
+        if (!other) continue;
+        throw Error(ErrorCode::overlap, "position",
+                    "overlaps the body in slot " + std::to_string(state_.bodies.slot[*other]), k);
+    }
+}
+
+template <class Real>
+void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap) {
+    if (columns.position.empty() && columns.radius.empty() && columns.mass.empty()) return;
+    Bodies<Real>& bodies = state_.bodies;
+    const std::vector<Int3> positions = positions_of(columns);
+    struct Former {
+        Motion<Real> motion;
+        Kind kind;
+    };
+    std::vector<Former> formers;
+    formers.reserve(indices.size());
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const Index i = indices[k];
+        formers.push_back({bodies.motion[i], bodies.kind[i]});
+        if (!positions.empty()) bodies.motion[i].x = positions[k];
+        if (!columns.radius.empty()) bodies.motion[i].radius = static_cast<Real>(columns.radius[k]);
+        if (!columns.mass.empty() && std::isinf(columns.mass[k])) bodies.kind[i] = Kind::fixed;
+        if (!columns.mass.empty() && bodies.kind[i] == Kind::fixed && !std::isinf(columns.mass[k])) {
+            bodies.kind[i] = Kind::free;
+        }
+    }
+    if (overlap == Overlap::accept) {
+        placement_.forget();
+        return;
+    }
+    try {
+        check_moved(indices);
+    } catch (const Error&) {
+        for (std::size_t k = indices.size(); k-- > 0;) {
+            bodies.motion[indices[k]] = formers[k].motion;
+            bodies.kind[indices[k]] = formers[k].kind;
+        }
+        placement_.forget();
+        throw;
+    }
+}
+
+template <class Real>
+void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices) {
+    Bodies<Real>& bodies = state_.bodies;
+    const auto write = [&indices](auto column, auto&& writer) {
+        for (std::size_t k = 0; k < column.size(); ++k) writer(indices[k], column[k]);
+    };
+    write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
+    write(columns.mass, [&](Index i, double mass) { bodies.mass[i] = static_cast<Real>(mass); });
+    write(columns.restitution, [&](Index i, double e) { bodies.restitution[i] = static_cast<Real>(e); });
+    write(columns.friction, [&](Index i, double mu) { bodies.friction[i] = static_cast<Real>(mu); });
+    write(columns.material, [&](Index i, std::uint32_t key) { bodies.material[i] = key; });
+    write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data[i] = data; });
+}
+
+template <class Real>
+void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& columns, Overlap overlap) {
+    check_values(columns, ids.size());
+    const std::vector<Index> indices = indices_of(ids);
+    check_static_rule(columns, indices);
+    const std::vector<Kind> former_kinds = [&] {
+        std::vector<Kind> kinds(indices.size());
+        for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
+        return kinds;
+    }();
+    move_bodies(columns, indices, overlap);
+    write_columns(columns, indices);
+    const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
+    if (!moved && columns.velocity.empty()) return;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (former_kinds[k] == Kind::fixed && moved) release_from(state_.bodies, ids[k].slot);
+        if (former_kinds[k] != Kind::held) continue;
+        state_.bodies.holds.erase(ids[k].slot);
+        if (state_.bodies.kind[indices[k]] == Kind::held) state_.bodies.kind[indices[k]] = Kind::free;
+    }
+}
+
+template <class Real>
+void Engine<Real>::remove(std::span<const BodyId> ids) {
+    static_cast<void>(indices_of(ids));
+    std::vector<BodyId> sorted(ids.begin(), ids.end());
+    std::sort(sorted.begin(), sorted.end());
+    if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+        const auto last = std::find(ids.rbegin(), ids.rend(), *twice);
+        throw Error(ErrorCode::unknown_body, "id", "the body is named twice",
+                    static_cast<std::size_t>(ids.rend() - last) - 1);
+    }
+    for (const BodyId id : ids) {
+        release_from(state_.bodies, id.slot);
+        std::erase_if(attractors_, [id](const Attractor& attractor) { return attractor.body == id; });
+        remove_body(state_.bodies, state_.bodies.slots[id.slot].index);
+    }
+    placement_.forget();
+}
+
+template <class Real>
+void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<const Vec3> changes, bool are_impulses) {
+    const char* field = are_impulses ? "impulses" : "changes";
+    if (changes.size() != ids.size()) {
+        throw Error(ErrorCode::size_mismatch, field,
+                    "has " + std::to_string(changes.size()) + " elements, needs " + std::to_string(ids.size()));
+    }
+    const std::vector<Index> indices = indices_of(ids);
+    Bodies<Real>& bodies = state_.bodies;
+    const auto change = [&](std::size_t k) {
+        return are_impulses ? changes[k] / static_cast<double>(bodies.mass[indices[k]]) : changes[k];
+    };
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        check_finite(changes[k], field, k);
+        if (bodies.kind[indices[k]] == Kind::fixed) throw Error(ErrorCode::out_of_range, "id", "the body is static", k);
+        check_velocity<Real>(velocity_of(bodies.motion[indices[k]]) + change(k), k);
+    }
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        Motion<Real>& m = bodies.motion[indices[k]];
+        m.v = rounded<Real>(velocity_of(m) + change(k));
+        release(bodies, indices[k]);
+    }
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns&, Overlap);                                  \
+    template void Engine<Real>::get(std::span<const BodyId>, const BodyColumns&) const;                                \
+    template void Engine<Real>::set(std::span<const BodyId>, const ConstBodyColumns&, Overlap);                        \
+    template void Engine<Real>::remove(std::span<const BodyId>);                                                       \
+    template void Engine<Real>::change_velocities(std::span<const BodyId>, std::span<const Vec3>, bool);               \
+    template bool Engine<Real>::contains(BodyId) const noexcept;                                                       \
+    template bool Engine<Real>::held(BodyId) const;                                                                    \
+    template std::vector<BodyId> Engine<Real>::ids() const;                                                            \
+    template BodyId Engine<Real>::id_of(std::uint32_t) const;                                                          \
+    template std::vector<Index> Engine<Real>::indices_of(std::span<const BodyId>) const;
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core

@@ -1,0 +1,224 @@
+#include "world/engine.hpp"
+
+#include "contact/rest.hpp"
+#include "space/checks.hpp"
+#include "space/stopwatch.hpp"
+
+namespace carom::core {
+
+namespace {
+
+/// How many windows a step is cut into. Longer windows mean longer swept boxes and more pairs that never meet; shorter
+/// ones more sorting. Results do not depend on it.
+std::uint32_t window_count(const Census& census, const Bounds& bounds, const Resolution& resolution, double dt) {
+    constexpr double most_windows = 1e6;
+    double windows = 1;
+    if (census.moving > 1) {
+        const auto side = [&](std::int64_t low, std::int64_t high) {
+            return metres_between(low, high, resolution) + 2 * census.mean_radius;
+        };
+        const double volume = side(census.low.x, census.high.x) * side(census.low.y, census.high.y) *
+                              side(census.low.z, census.high.z);
+        const double spacing = std::cbrt(volume / static_cast<double>(census.moving));
+        const double way = std::max(census.mean_radius, spacing / 4);
+        if (way > 0) windows = std::max(windows, census.rms_speed * dt / way);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        // Few periodic images to try for the fastest body.
+        const double period = static_cast<double>(bounds.period(axis)) * resolution.metres;
+        if (period > 0) windows = std::max(windows, census.top_speed * dt / period);
+    }
+    return static_cast<std::uint32_t>(std::ceil(std::min(windows, most_windows)));
+}
+
+} // namespace
+
+template <class Real>
+void Engine<Real>::check_step(double dt) {
+    check_positive(dt, "dt");
+    const Vec3 gravity = state_.laws.gravity;
+    for (Index i = 0; i < size(); ++i) {
+        if (state_.bodies.kind[i] == Kind::fixed) continue;
+        const Motion<Real>& m = state_.bodies.motion[i];
+        const Vec3 v = velocity_of(m);
+        const Vec3 kick = state_.laws.fields.empty() ? Vec3{} : attraction(state_, i) * (0.5 * dt);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double speed = std::abs(component(v, axis)) + std::abs(component(kick, axis)) +
+                                 std::abs(component(gravity, axis)) * dt;
+            const double way = speed * dt * setting_.resolution.per_metre;
+            const double end = std::abs(static_cast<double>(component(m.x, axis))) + way;
+            if (end < static_cast<double>(world_edge)) continue;
+            throw Error(ErrorCode::out_of_world, "position",
+                        "would leave the world of +-" +
+                            shown(static_cast<double>(world_edge) * setting_.resolution.metres) +
+                            " m; set the resolution to " +
+                            shown(resolution_for(end * setting_.resolution.metres)) + " m or more, or take shorter steps",
+                        state_.bodies.slot[i]);
+        }
+    }
+}
+
+template <class Real>
+const StepReport& Engine<Real>::step(double dt) {
+    Stopwatch watch;
+    state_.laws.fields = placed_fields();
+    check_step(dt);
+    begin_step(dt);
+    first_kick(0.5 * dt);
+    refresh_holds(state_, dt);
+    report_.seconds.forces += watch.lap();
+    const Census census = take_census(state_.bodies);
+    report_.seconds.cells += watch.lap();
+    const double reached = resolve_impacts(census, dt);
+    watch.lap();
+    finish_bodies(reached);
+    keep_spatial_order();
+    report_.seconds.bodies += watch.lap();
+    settle_holds(state_);
+    last_kick(reached - 0.5 * dt);
+    finish_step(dt, reached);
+    report_.seconds.forces += watch.lap();
+    return report_;
+}
+
+template <class Real>
+void Engine<Real>::begin_step(double dt) {
+    report_ = {};
+    placement_.forget();
+    outcome_.impacts = outcome_.face_impacts = outcome_.tc_conversions = 0;
+    outcome_.records.clear();
+    state_.laws.kick_interval = dt;
+    state_.books.mass_time = {};
+    if (!state_.bodies.interpolating) return;
+    for (Index i = 0; i < size(); ++i) state_.bodies.previous[i] = state_.bodies.motion[i].x;
+}
+
+template <class Real>
+double Engine<Real>::resolve_impacts(const Census& census, double dt) {
+    const std::uint32_t windows = std::max(
+        setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
+    const std::uint64_t predictions_before = solver_.predictions();
+    const PhaseTimes before = solver_.seconds();
+    Progress progress;
+    for (std::uint32_t k = 0; k < windows; ++k) {
+        const double from = progress.reached;
+        const double to = k + 1 == windows ? dt : dt * (static_cast<double>(k + 1) / windows);
+        progress = solver_.resolve(census, from, to, setting_.options.work_cap, outcome_);
+        ++report_.windows;
+        if (progress.work_cap_reached || progress.edge_reached) break;
+    }
+    report_.work_cap_reached = progress.work_cap_reached;
+    report_.edge_reached = progress.edge_reached;
+    report_.predictions = solver_.predictions() - predictions_before;
+    report_.seconds.cells += solver_.seconds().cells - before.cells;
+    report_.seconds.pairs += solver_.seconds().pairs - before.pairs;
+    report_.seconds.impacts += solver_.seconds().impacts - before.impacts;
+    return progress.reached;
+}
+
+template <class Real>
+void Engine<Real>::finish_bodies(double reached) {
+    Bodies<Real>& bodies = state_.bodies;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] == Kind::fixed) continue;
+        advance(state_, i, reached);
+        Motion<Real>& m = bodies.motion[i];
+        if (state_.bounds.any_periodic()) m.x = state_.bounds.wrapped(m.x);
+        m.t = 0;
+    }
+    forget_old_flights(reached);
+}
+
+template <class Real>
+void Engine<Real>::forget_old_flights(double reached) {
+    for (Flight& flight : state_.bodies.flight) {
+        if (flight.quick_impacts == 0) continue;
+        flight.last_impact -= reached;
+        if (-flight.last_impact > state_.laws.collapse_time) flight = {};
+    }
+}
+
+template <class Real>
+void Engine<Real>::keep_spatial_order() {
+    // Rarely enough to cost little, often enough that neighbours stay near in memory.
+    constexpr std::uint32_t steps_between = 16;
+    if (steps_since_order_++ % steps_between != 0) return;
+    std::vector<Index> order;
+    solver_.cells().spatial_order(order);
+    reorder(state_.bodies, order);
+}
+
+template <class Real>
+void Engine<Real>::finish_step(double dt, double reached) {
+    const double start = clock_.seconds();
+    if (reached > 0) clock_.advance(reached);
+    last_step_ = reached;
+    state_.books.outer_impulse.add(state_.laws.gravity * state_.books.mass_time.value());
+    report_.advanced = reached;
+    report_.behind = dt - reached;
+    report_.impacts = outcome_.impacts;
+    report_.face_impacts = outcome_.face_impacts;
+    report_.tc_conversions = outcome_.tc_conversions;
+    report_.held = state_.bodies.holds.size();
+    ledger_.impacts += outcome_.impacts;
+    ledger_.face_impacts += outcome_.face_impacts;
+    ledger_.lost_to_restitution = state_.books.lost_to_restitution.value();
+    ledger_.lost_to_friction = state_.books.lost_to_friction.value();
+    ledger_.lost_to_drag = state_.books.lost_to_drag.value();
+    ledger_.outer_impulse = state_.books.outer_impulse.value();
+    publish_impacts(start);
+}
+
+template <class Real>
+void Engine<Real>::publish_impacts(double start) {
+    impacts_.clear();
+    impacts_.reserve(outcome_.records.size());
+    for (const ImpactRecord& record : outcome_.records) {
+        const bool at_face = record.face >= 0;
+        const Int3 x = state_.bounds.any_periodic() ? state_.bounds.wrapped(record.x) : record.x;
+        impacts_.push_back({.time = start + record.offset,
+                            .offset = record.offset,
+                            .a = id_of(record.a),
+                            .b = at_face ? BodyId{} : id_of(record.b),
+                            .face = record.face,
+                            .position = api_position(x) + record.arm,
+                            .normal = record.normal,
+                            .impulse = record.impulse,
+                            .approach_speed = record.approach_speed,
+                            .energy_lost = record.energy_lost});
+    }
+}
+
+template <class Real>
+void Engine<Real>::positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const {
+    if (!state_.bodies.interpolating) {
+        throw Error(ErrorCode::not_available, "interpolation", "the world was made without it");
+    }
+    check_finite(time, "time");
+    const double end = clock_.seconds();
+    if (time > end || time < end - last_step_) {
+        throw Error(ErrorCode::out_of_range, "time",
+                    "must lie in the last step, [" + shown(end - last_step_) + ", " + shown(end) + "] s, got " +
+                        shown(time));
+    }
+    if (positions.size() != ids.size()) {
+        throw Error(ErrorCode::size_mismatch, "positions", "must be as long as ids");
+    }
+    const std::vector<Index> indices = indices_of(ids);
+    const double back = last_step_ > 0 ? (end - time) / last_step_ : 0;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const Int3 now = state_.bodies.motion[indices[k]].x;
+        const Int3 way = nearest_image(state_.bounds, setting_.resolution, state_.bodies.previous[indices[k]] - now, {});
+        const Int3 then = now + round_to_units(to_metres(way, setting_.resolution) * back, setting_.resolution);
+        positions[k] = api_position(state_.bounds.wrapped(then));
+    }
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template const StepReport& Engine<Real>::step(double);                                                             \
+    template void Engine<Real>::positions_at(double, std::span<const BodyId>, std::span<Vec3>) const;
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core

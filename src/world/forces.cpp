@@ -1,0 +1,94 @@
+#include "collision/portable_math.hpp"
+#include "contact/rest.hpp"
+#include "world/engine.hpp"
+
+#include <algorithm>
+
+namespace carom::core {
+
+namespace {
+
+/// What is left of a speed (m/s) after `duration` s of dv/dt = -(linear + quadratic v) v: the exact solution
+/// E / (1 + (quadratic / linear) v (1 - E)), E = exp(-linear duration). A negative duration undoes drag, at most to
+/// twice the speed.
+double drag_factor(const Drag& drag, double speed, double duration) {
+    const double exponent = drag.linear * duration;
+    const double decay = detail::exp(-exponent);
+    // (1 - E) / linear, by its series where the difference would cancel.
+    constexpr double small = 1e-5;
+    const double stretch = std::abs(exponent) < small ? duration * (1 - exponent / 2 + exponent * exponent / 6)
+                                                      : (1 - decay) / drag.linear;
+    const double resistance = 1 + drag.quadratic * speed * stretch;
+    return resistance > 0 ? std::min(decay / resistance, 2.0) : 2.0;
+}
+
+} // namespace
+
+template <class Real>
+std::vector<PointField> Engine<Real>::placed_fields() const {
+    std::vector<PointField> fields;
+    for (const Attractor& attractor : attractors_) {
+        PointField field{.strength = attractor.strength, .softening = attractor.softening};
+        if (attractor.body.is_set()) {
+            field.carrier = attractor.body.slot;
+            field.x = state_.bodies.motion[state_.bodies.slots[field.carrier].index].x;
+        } else {
+            field.x = round_to_units(attractor.position, setting_.resolution) + setting_.origin;
+        }
+        fields.push_back(field);
+    }
+    return fields;
+}
+
+template <class Real>
+void Engine<Real>::first_kick(double duration) {
+    attract(duration);
+    drag(duration);
+}
+
+template <class Real>
+void Engine<Real>::last_kick(double duration) {
+    state_.laws.fields = placed_fields();
+    drag(duration);
+    attract(duration);
+}
+
+template <class Real>
+void Engine<Real>::attract(double duration) {
+    if (state_.laws.fields.empty()) return;
+    Bodies<Real>& bodies = state_.bodies;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] == Kind::fixed) continue;
+        Vec3 change = attraction(state_, i) * duration;
+        if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
+        const Vec3 before = velocity_of(bodies.motion[i]);
+        bodies.motion[i].v = rounded<Real>(before + change);
+        state_.books.outer_impulse.add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.mass[i]));
+    }
+}
+
+template <class Real>
+void Engine<Real>::drag(double duration) {
+    const Drag& law = setting_.options.drag;
+    if (law.linear == 0 && law.quadratic == 0) return;
+    Bodies<Real>& bodies = state_.bodies;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] == Kind::fixed) continue;
+        const Vec3 before = velocity_of(bodies.motion[i]);
+        bodies.motion[i].v = rounded<Real>(before * drag_factor(law, length(before), duration));
+        const Vec3 after = velocity_of(bodies.motion[i]);
+        const auto mass = static_cast<double>(bodies.mass[i]);
+        state_.books.outer_impulse.add((after - before) * mass);
+        state_.books.lost_to_drag.add(0.5 * mass * dot(before - after, before + after));
+    }
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template std::vector<PointField> Engine<Real>::placed_fields() const;                                              \
+    template void Engine<Real>::first_kick(double);                                                                    \
+    template void Engine<Real>::last_kick(double);
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core

@@ -1,0 +1,300 @@
+#include "world/snapshot.hpp"
+
+#include "contact/rest.hpp"
+#include "world/archive.hpp"
+#include "world/checksum.hpp"
+
+#include <string>
+
+namespace carom::core {
+
+namespace {
+
+constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
+constexpr std::uint32_t snapshot_version = 1;
+
+[[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+    Checksum sum;
+    sum.add(bytes);
+    return sum.value();
+}
+
+} // namespace
+
+template <class Archive>
+void transfer(Archive& archive, Surface& surface) {
+    archive(surface.restitution, surface.friction);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Face& face) {
+    archive(face.kind, face.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Plane& plane) {
+    archive(plane.point, plane.normal, plane.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, MaterialRule& rule) {
+    archive(rule.a, rule.b, rule.restitution, rule.friction);
+}
+
+template <class Archive>
+void transfer(Archive& archive, OpenSpace&) {
+    static_cast<void>(archive);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Box& box) {
+    archive(box.min, box.max, box.faces);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Shell& shell) {
+    archive(shell.centre, shell.radius, shell.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Region& region) {
+    auto kind = static_cast<std::uint32_t>(region.index());
+    archive(kind);
+    if constexpr (Archive::reading) {
+        switch (kind) {
+        case 0: region = OpenSpace{}; break;
+        case 1: region = Box{}; break;
+        case 2: region = std::vector<Plane>{}; break;
+        case 3: region = Shell{}; break;
+        default: refuse("names an unknown kind of region");
+        }
+    }
+    std::visit([&archive](auto& shape) { archive(shape); }, region);
+}
+
+template <class Archive>
+void transfer(Archive& archive, BodyId& id) {
+    archive(id.slot, id.generation, id.world);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Attractor& attractor) {
+    archive(attractor.position, attractor.strength, attractor.softening, attractor.body);
+}
+
+template <class Archive>
+void transfer(Archive& archive, WorldOptions& o) {
+    archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic,
+            o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.record_impacts,
+            o.least_recorded_impulse, o.interpolation);
+}
+
+template <class Archive, class Real>
+void transfer(Archive& archive, Motion<Real>& motion) {
+    archive(motion.x, motion.v, motion.radius);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Flight& flight) {
+    archive(flight.last_impact, flight.quick_impacts);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Slot& slot) {
+    archive(slot.index, slot.generation);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Support& support) {
+    archive(support.code);
+}
+
+template <class Archive>
+void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
+    std::uint64_t count = holds.size();
+    archive(count);
+    if constexpr (Archive::reading) {
+        for (std::uint64_t k = 0; k < count; ++k) {
+            std::uint32_t slot = 0;
+            archive(slot);
+            archive(holds[slot].supports);
+        }
+    } else {
+        for (auto& [slot, hold] : holds) {
+            std::uint32_t key = slot;
+            archive(key, hold.supports);
+        }
+    }
+}
+
+template <class Archive>
+void transfer(Archive& archive, Books& books) {
+    archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.outer_impulse);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Ledger& ledger) {
+    archive(ledger.impacts, ledger.face_impacts, ledger.lost_to_restitution, ledger.lost_to_friction,
+            ledger.lost_to_drag, ledger.outer_impulse);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Clock& clock) {
+    clock.transfer(archive);
+}
+
+namespace {
+
+/// Hashes the parts of a state one after the other, in blocks.
+class Hasher {
+public:
+    template <class... T>
+    void operator()(const T&... values) {
+        (put(values), ...);
+    }
+    template <class T>
+    void vector(const T& v) {
+        (*this)(v.x, v.y, v.z);
+    }
+    [[nodiscard]] std::uint64_t value() {
+        flush();
+        return sum_.value();
+    }
+
+private:
+    template <Plain T>
+    void put(const T& value) {
+        if (used_ + sizeof(T) > block_.size()) flush();
+        std::memcpy(block_.data() + used_, &value, sizeof(T));
+        used_ += sizeof(T);
+    }
+    void flush() {
+        sum_.add({block_.data(), used_});
+        used_ = 0;
+    }
+
+    Checksum sum_;
+    std::array<std::byte, 4096> block_{};
+    std::size_t used_ = 0;
+};
+
+} // namespace
+
+OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
+    Reader reader(snapshot);
+    std::array<char, 8> magic{};
+    if (reader.left() < magic.size()) refuse("ends too early");
+    reader(magic);
+    if (magic != snapshot_magic) refuse("is no snapshot of carom");
+    std::uint32_t version = 0;
+    std::uint64_t size = 0;
+    std::uint64_t sum = 0;
+    reader(version, size, sum);
+    if (version != snapshot_version) {
+        refuse("has format version " + std::to_string(version) + ", this carom reads version " +
+               std::to_string(snapshot_version));
+    }
+    if (reader.left() < size) refuse("ends too early");
+    if (reader.left() > size) refuse("has bytes after its end");
+    if (checksum(reader.rest()) != sum) refuse("was altered: its checksum does not match");
+    WorldOptions options;
+    OpenedSnapshot opened;
+    Int3 first_origin;
+    Int3 origin;
+    reader(options, opened.world_tag, first_origin, origin);
+    opened.setting = checked_setting(std::move(options));
+    opened.setting.first_origin = first_origin;
+    opened.setting.origin = origin;
+    opened.payload = reader.rest();
+    return opened;
+}
+
+template <class Real>
+template <class Archive>
+void Engine<Real>::transfer(Archive& archive) {
+    Bodies<Real>& b = state_.bodies;
+    archive(b.motion, b.mass, b.restitution, b.friction, b.material, b.user_data, b.flight, b.kind, b.slot, b.previous,
+            b.slots, b.free_slots, b.holds, state_.books, attractors_, clock_, ledger_, last_step_,
+            steps_since_order_);
+}
+
+template <class Real>
+std::vector<std::byte> Engine<Real>::save() const {
+    // The layout is described once, for both directions; writing changes nothing.
+    auto& self = const_cast<Engine&>(*this);
+    Writer body;
+    body(self.setting_.options, self.world_tag_, self.setting_.first_origin, self.setting_.origin);
+    self.transfer(body);
+    const std::vector<std::byte> payload = body.take();
+    Writer frame;
+    std::array<char, 8> magic = snapshot_magic;
+    std::uint32_t version = snapshot_version;
+    std::uint64_t size = payload.size();
+    std::uint64_t sum = checksum(payload);
+    frame(magic, version, size, sum);
+    std::vector<std::byte> bytes = frame.take();
+    bytes.insert(bytes.end(), payload.begin(), payload.end());
+    return bytes;
+}
+
+template <class Real>
+void Engine<Real>::load(std::span<const std::byte> payload) {
+    Reader reader(payload);
+    transfer(reader);
+    if (reader.left() != 0) refuse("has bytes after its end");
+    state_.bodies.version.assign(size(), 0);
+    check_loaded();
+    refresh_holds(state_, 0);
+}
+
+template <class Real>
+void Engine<Real>::check_loaded() const {
+    const Bodies<Real>& b = state_.bodies;
+    const auto same = [&](const auto& array) { return array.size() == size(); };
+    bool sound = same(b.mass) && same(b.restitution) && same(b.friction) && same(b.material) && same(b.user_data) &&
+                 same(b.flight) && same(b.kind) && same(b.slot) && (same(b.previous) || !b.interpolating);
+    for (Index i = 0; sound && i < size(); ++i) {
+        sound = b.slot[i] < b.slots.size() && b.slots[b.slot[i]].index == i && b.kind[i] <= Kind::held &&
+                (b.kind[i] == Kind::held) == b.holds.contains(b.slot[i]) && b.mass[i] > 0 && b.motion[i].radius >= 0;
+    }
+    for (const Slot& slot : b.slots) sound = sound && (slot.index == no_index || slot.index < size());
+    for (const std::uint32_t slot : b.free_slots) sound = sound && slot < b.slots.size();
+    for (const auto& [slot, hold] : b.holds) {
+        sound = sound && slot < b.slots.size() && !hold.supports.empty();
+        for (const Support& s : hold.supports) {
+            sound = sound && (s.is_wall() ? s.wall() < state_.bounds.walls().size()
+                                          : s.code < b.slots.size() && b.slots[s.code].index != no_index);
+        }
+    }
+    for (const Attractor& a : attractors_) sound = sound && (!a.body.is_set() || contains(a.body));
+    if (!sound) refuse("contradicts itself");
+}
+
+template <class Real>
+std::uint64_t Engine<Real>::hash() const {
+    Hasher hasher;
+    hasher(clock_.seconds());
+    for (std::uint32_t slot = 0; slot < state_.bodies.slots.size(); ++slot) {
+        const Index i = state_.bodies.slots[slot].index;
+        if (i == no_index) continue;
+        hasher(slot);
+        hasher.vector(state_.bodies.motion[i].x);
+        hasher.vector(state_.bodies.motion[i].v);
+        hasher(state_.bodies.flight[i].last_impact, state_.bodies.flight[i].quick_impacts);
+        if (state_.bodies.kind[i] != Kind::held) continue;
+        for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
+    }
+    return hasher.value();
+}
+
+#define CAROM_INSTANTIATE(Real)                                                                                        \
+    template std::vector<std::byte> Engine<Real>::save() const;                                                        \
+    template void Engine<Real>::load(std::span<const std::byte>);                                                      \
+    template std::uint64_t Engine<Real>::hash() const;
+CAROM_INSTANTIATE(float)
+CAROM_INSTANTIATE(double)
+#undef CAROM_INSTANTIATE
+
+} // namespace carom::core
