@@ -6,10 +6,10 @@
 /// the collision in one dimension. carom writes these laws with impulses, so that masses of 1 : 10^12 cancel nothing,
 /// and lets an infinite mass (a static body) be exactly that.
 ///
-/// SI units. The domain of every function: masses > 0 or infinite, speeds finite, restitution e in [0, 1] (World refuses
-/// any other), friction mu >= 0. All arithmetic is done in double, in an order in which mirrored input gives mirrored
-/// bits. Momentum, energy (e = 1) and the restitution of the result are right to 16 eps of T, relative to the largest
-/// speed.
+/// SI units. The domain of every function: masses > 0 or infinite, speeds finite, restitution e in [0, 1] (World
+/// refuses any other), friction mu >= 0. All arithmetic is done in double, in an order in which mirrored input gives
+/// mirrored bits. Momentum, energy (e = 1) and the restitution of the result are right to 16 eps of T, relative to the
+/// largest speed.
 #pragma once
 
 #include <carom/time_of_impact.hpp>
@@ -23,15 +23,11 @@ namespace carom {
 
 namespace detail {
 
-constexpr bool is_static(double mass) {
-    return mass == std::numeric_limits<double>::infinity();
-}
+constexpr bool is_static(double mass) { return mass == std::numeric_limits<double>::infinity(); }
 
-/// `m_other / (m_self + m_other)`: the share of a change of the relative velocity that falls to the body itself. Exactly
-/// 0 for a static body and exactly 1 against one; no sum that could overflow.
-constexpr double share(double m_self, double m_other) {
-    return is_static(m_self) ? 0.0 : 1 / (1 + m_self / m_other);
-}
+/// `m_other / (m_self + m_other)`: the share of a change of the relative velocity that falls to the body itself.
+/// Exactly 0 for a static body and exactly 1 against one; no sum that could overflow.
+constexpr double share(double m_self, double m_other) { return is_static(m_self) ? 0.0 : 1 / (1 + m_self / m_other); }
 
 constexpr double reduced_mass(double m_a, double m_b) {
     const double lighter = std::min(m_a, m_b);
@@ -60,8 +56,8 @@ T combined_friction(T mu_a, T mu_b) {
 // One dimension
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Reduced mass `m_a m_b / (m_a + m_b)`, kg. Against a static body it is the other mass exactly; of two static bodies it
-/// is infinite, and such a pair never gets an impulse.
+/// Reduced mass `m_a m_b / (m_a + m_b)`, kg. Against a static body it is the other mass exactly; of two static bodies
+/// it is infinite, and such a pair never gets an impulse.
 template <class T>
 constexpr T reduced_mass(T m_a, T m_b) {
     return static_cast<T>(detail::reduced_mass(static_cast<double>(m_a), static_cast<double>(m_b)));
@@ -78,8 +74,8 @@ struct Velocities1d {
 ///
 /// `v_a' = v_a - (1+e) (v_a - v_b) m_b/(m_a+m_b)`, `v_b' = v_b + (1+e) (v_a - v_b) m_a/(m_a+m_b)`: the same numbers as
 /// `((1+e) m_b v_b + v_a (m_a - e m_b)) / (m_a + m_b)` and its mirror image. Masses in kg, velocities in m/s. A static
-/// body keeps its velocity, two static bodies keep both. The law knows no positions: it is the caller who knows that the
-/// two meet and do not part.
+/// body keeps its velocity, two static bodies keep both. The law knows no positions: it is the caller who knows that
+/// the two meet and do not part.
 template <class T>
 constexpr Velocities1d<T> collide_1d(T m_a, T v_a, T m_b, T v_b, T e) {
     const auto mass_a = static_cast<double>(m_a);
@@ -120,11 +116,11 @@ Vector3<T> contact_normal(const Vector3<T>& delta, const Vector3<T>& delta_veloc
 /// What an impact did.
 template <class T>
 struct Response {
-    T approach_speed{};             ///< (v_a - v_b).n before the impact, m/s; not positive: no impact
-    T impulse{};                    ///< on b along n, N s, >= 0; a receives the opposite
-    Vector3<T> friction_impulse{};  ///< on b across n, N s; a receives the opposite
-    T restitution_loss{};           ///< kinetic energy that restitution took, J, >= 0
-    T friction_loss{};              ///< kinetic energy that friction took, J, >= 0
+    T approach_speed{};            ///< (v_a - v_b).n before the impact, m/s; not positive: no impact
+    T impulse{};                   ///< on b along n, N s, >= 0; a receives the opposite
+    Vector3<T> friction_impulse{}; ///< on b across n, N s; a receives the opposite
+    T restitution_loss{};          ///< kinetic energy that restitution took, J, >= 0
+    T friction_loss{};             ///< kinetic energy that friction took, J, >= 0
 
     /// Kinetic energy lost in all, J. Of a pair with a static body it is measured in that body's frame.
     [[nodiscard]] constexpr T energy_lost() const { return restitution_loss + friction_loss; }

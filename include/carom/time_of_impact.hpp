@@ -39,9 +39,7 @@ namespace detail {
 // Tools
 // ---------------------------------------------------------------------------------------------------------------------
 
-constexpr const Vec3& wide(const Vec3& a) {
-    return a;
-}
+constexpr const Vec3& wide(const Vec3& a) { return a; }
 constexpr Vec3 wide(const Vector3<float>& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
@@ -54,12 +52,11 @@ constexpr Vector3<T> narrow(const Vec3& a) {
 /// A time rounded to T; one that T cannot hold is no impact.
 template <class T>
 constexpr T narrow_time(double time) {
-    return time <= static_cast<double>(std::numeric_limits<T>::max()) ? static_cast<T>(time) : static_cast<T>(no_impact);
+    return time <= static_cast<double>(std::numeric_limits<T>::max()) ? static_cast<T>(time)
+                                                                      : static_cast<T>(no_impact);
 }
 
-constexpr double within(double time, double horizon) {
-    return time <= horizon ? time : no_impact;
-}
+constexpr double within(double time, double horizon) { return time <= horizon ? time : no_impact; }
 
 /// Unit vector along a, or zero for the zero vector. Lengths whose squares leave the range of a double are scaled by a
 /// power of two first, which rounds nothing.
@@ -97,10 +94,16 @@ inline QuadraticRoots quadratic_roots(double a, double b, double c) {
     if (a == 0) {
         return {1, {-c / (2 * b)}};
     }
-    const double large = b > 0 ? -b - std::sqrt(discriminant) : std::sqrt(discriminant) - b;
-    if (discriminant == 0 || large == 0) {
+    if (discriminant == 0) {
         return {1, {-b / a}};
     }
+    const double spread = std::sqrt(discriminant);
+    if (b == 0) {
+        // Neither sign may count as that of b: mirrored input would get other bits.
+        const double half = spread / std::abs(a);
+        return {2, {-half, half}};
+    }
+    const double large = b > 0 ? -b - spread : spread - b;
     const double first = large / a;
     const double second = c / large;
     return {2, {std::min(first, second), std::max(first, second)}};
@@ -171,9 +174,7 @@ struct RadialRate {
 /// Which side of a sphere around the origin a point flies on: the sign that makes the gap grow with the distance.
 enum class Side { outside = 1, inside = -1 };
 
-constexpr double sign_of(Side side) {
-    return side == Side::outside ? 1.0 : -1.0;
-}
+constexpr double sign_of(Side side) { return side == Side::outside ? 1.0 : -1.0; }
 
 /// `side (|p|^2 - level^2)`: the gap in squares, which is smooth where the distance is not.
 struct SquaredGap {
@@ -316,7 +317,8 @@ inline double plane_touching(double gap, double velocity, double acceleration) {
 inline double plane(double gap, double velocity, double acceleration, double horizon) {
     // Neither the velocity nor the acceleration, each where it points inwards, can close the gap in time. With the zero
     // first, std::min also drops the NaN of 0 times an infinite horizon.
-    const double nearest = gap + std::min(0.0, velocity * horizon) + std::min(0.0, acceleration * (horizon / 2) * horizon);
+    const double nearest =
+        gap + std::min(0.0, velocity * horizon) + std::min(0.0, acceleration * (horizon / 2) * horizon);
     if (nearest > 0 || !(horizon >= 0)) {
         return no_impact;
     }
@@ -430,16 +432,17 @@ T time_to_spheres(const Vector3<T>& delta, const Vector3<T>& delta_velocity, T c
 
 /// Two spheres whose relative motion is a parabola: a free body against a static or held one.
 ///
-/// \param delta_acceleration  acceleration of b minus acceleration of a, m/s^2; zero gives the bits of the straight form
+/// \param delta_acceleration  acceleration of b minus acceleration of a, m/s^2; zero gives the bits of the straight
+/// form
 ///
-/// The first time at which the quartic `|d + v t + a t^2 / 2|^2 - R^2` comes down to zero: bracketed between its turning
-/// points and found by safeguarded Newton steps. The other parameters are those of the straight form.
+/// The first time at which the quartic `|d + v t + a t^2 / 2|^2 - R^2` comes down to zero: bracketed between its
+/// turning points and found by safeguarded Newton steps. The other parameters are those of the straight form.
 template <class T>
 T time_to_spheres(const Vector3<T>& delta, const Vector3<T>& delta_velocity, const Vector3<T>& delta_acceleration,
                   T contact_distance, T horizon) {
-    return detail::narrow_time<T>(detail::spheres_curved(
-        {detail::wide(delta), detail::wide(delta_velocity), detail::wide(delta_acceleration)},
-        static_cast<double>(contact_distance), static_cast<double>(horizon)));
+    return detail::narrow_time<T>(
+        detail::spheres_curved({detail::wide(delta), detail::wide(delta_velocity), detail::wide(delta_acceleration)},
+                               static_cast<double>(contact_distance), static_cast<double>(horizon)));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -486,8 +489,8 @@ inline double shell_inside(const Parabola& path, double clearance, double horizo
 /// The first time at which `|d + v t + a t^2 / 2|` comes up to the clearance. A body that touches the shell and moves
 /// along it is pressed against it by the curvature: 0.
 template <class T>
-T time_to_shell_inside(const Vector3<T>& delta_from_centre, const Vector3<T>& velocity,
-                       const Vector3<T>& acceleration, T clearance, T horizon) {
+T time_to_shell_inside(const Vector3<T>& delta_from_centre, const Vector3<T>& velocity, const Vector3<T>& acceleration,
+                       T clearance, T horizon) {
     return detail::narrow_time<T>(
         detail::shell_inside({detail::wide(delta_from_centre), detail::wide(velocity), detail::wide(acceleration)},
                              static_cast<double>(clearance), static_cast<double>(horizon)));
@@ -496,8 +499,8 @@ T time_to_shell_inside(const Vector3<T>& delta_from_centre, const Vector3<T>& ve
 /// A sphere outside a solid sphere: two spheres. `contact_distance` is the sum of the radii, m; the other parameters
 /// are those of time_to_shell_inside().
 template <class T>
-T time_to_shell_outside(const Vector3<T>& delta_from_centre, const Vector3<T>& velocity,
-                        const Vector3<T>& acceleration, T contact_distance, T horizon) {
+T time_to_shell_outside(const Vector3<T>& delta_from_centre, const Vector3<T>& velocity, const Vector3<T>& acceleration,
+                        T contact_distance, T horizon) {
     return time_to_spheres(delta_from_centre, velocity, acceleration, contact_distance, horizon);
 }
 
@@ -514,9 +517,7 @@ struct FaceImpact {
 
 namespace detail {
 
-constexpr std::array<double, 3> components(const Vec3& a) {
-    return {a.x, a.y, a.z};
-}
+constexpr std::array<double, 3> components(const Vec3& a) { return {a.x, a.y, a.z}; }
 
 struct Bounds {
     Vec3 min;
@@ -557,9 +558,8 @@ inline FaceImpact<double> box_inside(const Parabola& path, double radius, const 
 ///
 /// Each face is a plane, see time_to_plane().
 template <class T>
-FaceImpact<T> time_to_box_inside(const Vector3<T>& position, const Vector3<T>& velocity,
-                                 const Vector3<T>& acceleration, T radius, const Vector3<T>& box_min,
-                                 const Vector3<T>& box_max, T horizon) {
+FaceImpact<T> time_to_box_inside(const Vector3<T>& position, const Vector3<T>& velocity, const Vector3<T>& acceleration,
+                                 T radius, const Vector3<T>& box_min, const Vector3<T>& box_max, T horizon) {
     const FaceImpact<double> first = detail::box_inside(
         {detail::wide(position), detail::wide(velocity), detail::wide(acceleration)}, static_cast<double>(radius),
         {detail::wide(box_min), detail::wide(box_max)}, static_cast<double>(horizon));
@@ -694,9 +694,9 @@ inline BoxImpact<double> box_outside(const Parabola& path, double radius, const 
             // A centre inside the box is deep in the face nearest to it, as in a plane. It gets there only from a start
             // inside, or as a point without a radius, which has no gap left when it enters.
             const DeepFace face = nearest_face(path.position_at(from), box);
-            const double hit = from > 0 ? from
-                                        : plane(-face.depth, dot(path.velocity, face.normal),
-                                                dot(path.acceleration, face.normal), to);
+            const double hit =
+                from > 0 ? from
+                         : plane(-face.depth, dot(path.velocity, face.normal), dot(path.acceleration, face.normal), to);
             if (hit <= to) {
                 return {hit, face.normal};
             }
@@ -719,12 +719,11 @@ inline BoxImpact<double> box_outside(const Parabola& path, double radius, const 
 ///
 /// The parameters are those of time_to_box_inside(); a box with infinite bounds is a slab, a column or a half space.
 /// The distance to the box is followed from region to region (face, edge, corner), in each as the distance of two
-/// spheres in one, two or three dimensions. A centre inside the box counts as deep in the face nearest to it. The normal
-/// points from the box to the centre.
+/// spheres in one, two or three dimensions. A centre inside the box counts as deep in the face nearest to it. The
+/// normal points from the box to the centre.
 template <class T>
-BoxImpact<T> time_to_box_outside(const Vector3<T>& position, const Vector3<T>& velocity,
-                                 const Vector3<T>& acceleration, T radius, const Vector3<T>& box_min,
-                                 const Vector3<T>& box_max, T horizon) {
+BoxImpact<T> time_to_box_outside(const Vector3<T>& position, const Vector3<T>& velocity, const Vector3<T>& acceleration,
+                                 T radius, const Vector3<T>& box_min, const Vector3<T>& box_max, T horizon) {
     const BoxImpact<double> first = detail::box_outside(
         {detail::wide(position), detail::wide(velocity), detail::wide(acceleration)}, static_cast<double>(radius),
         {detail::wide(box_min), detail::wide(box_max)}, static_cast<double>(horizon));

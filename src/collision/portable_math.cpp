@@ -59,9 +59,7 @@ Precise operator*(const Precise& a, const Precise& b) {
     return exact_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
-Precise operator*(const Precise& a, double b) {
-    return a * Precise{b, 0};
-}
+Precise operator*(const Precise& a, double b) { return a * Precise{b, 0}; }
 
 constexpr Precise half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Precise one_third{0x1.5555555555555p-2, 0x1.5555555555555p-56};
@@ -115,7 +113,8 @@ double exp_of(const Precise& x) {
                                 1.0 / 720,     1.0 / 5040,     1.0 / 40320,     1.0 / 362880,
                                 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
     const double rest = r.low + r.high * r.low + r.high * r.high * polynomial(series, r.high);
-    return scaled_by_power_of_two(1 + (r.high + rest), n);
+    const Precise head = exact_sum(1, r.high);
+    return scaled_by_power_of_two(head.high + (head.low + rest), n);
 }
 
 /// Logarithm of a positive finite number to about 2^-65: `x = 2^n m` with m in [1/sqrt 2, sqrt 2) and
@@ -141,8 +140,7 @@ Precise log_of(double x) {
     const Precise back = exact_product(s_high, denominator.high);
     const Precise s{s_high, (((m - 1) - back.high) - back.low - s_high * denominator.low) / denominator.high};
     const Precise z = s * s;
-    constexpr std::array series{1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13, 1.0 / 15,
-                                1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23};
+    constexpr std::array series{1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23};
     const Precise tail = one_fifth + Precise{z.high * polynomial(series, z.high), 0};
     const Precise twice_s{2 * s.high, 2 * s.low};
     const Precise log_m = twice_s + twice_s * (z * (one_third + z * tail));
@@ -208,12 +206,26 @@ using Fraction = std::array<std::uint64_t, 3>;
 
 /// 192 bits of 2/pi, from the given bit on; its first 64 bits here are zeros before the binary point.
 Fraction two_over_pi_from(std::size_t bit) {
-    constexpr std::array<std::uint64_t, 20> digits{
-        0,
-        0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, 0xfe5163abdebbc561, 0xb7246e3a424dd2e0,
-        0x06492eea09d1921c, 0xfe1deb1cb129a73e, 0xe88235f52ebb4484, 0xe99c7026b45f7e41, 0x3991d639835339f4,
-        0x9c845f8bbdf9283b, 0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
-        0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab};
+    constexpr std::array<std::uint64_t, 20> digits{0,
+                                                   0xa2f9836e4e441529,
+                                                   0xfc2757d1f534ddc0,
+                                                   0xdb6295993c439041,
+                                                   0xfe5163abdebbc561,
+                                                   0xb7246e3a424dd2e0,
+                                                   0x06492eea09d1921c,
+                                                   0xfe1deb1cb129a73e,
+                                                   0xe88235f52ebb4484,
+                                                   0xe99c7026b45f7e41,
+                                                   0x3991d639835339f4,
+                                                   0x9c845f8bbdf9283b,
+                                                   0x1ff897ffde05980f,
+                                                   0xef2f118b5a0a6d1f,
+                                                   0x6d367ecf27cb09b7,
+                                                   0x4f463f669e5fea2d,
+                                                   0x7527bac7ebe5f17b,
+                                                   0x3d0739f78a5292ea,
+                                                   0x6bfb5fb11f8d5d08,
+                                                   0x56033046fc7b6bab};
     const std::size_t word = bit / 64;
     const std::size_t shift = bit % 64;
     Fraction window{};
@@ -293,12 +305,12 @@ double sin_near_zero(const Precise& x) {
 
 /// Cosine of an angle in [-pi/4, pi/4], by its Taylor series.
 double cos_near_zero(const Precise& x) {
-    constexpr std::array series{1.0 / 24,        -1.0 / 720,        1.0 / 40320,         -1.0 / 3628800,
+    constexpr std::array series{1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
                                 1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
-    const double square = x.high * x.high;
-    const double head = 1 - square / 2;
-    const double lost = (1 - head) - square / 2;
-    return head + (lost + (square * square * polynomial(series, square) - x.high * x.low));
+    const Precise square = exact_product(x.high, x.high);
+    const Precise head = exact_sum(1, -square.high / 2);
+    const double rest = square.high * square.high * polynomial(series, square.high) - x.high * x.low - square.low / 2;
+    return head.high + (head.low + rest);
 }
 
 /// Sine of an angle after some quarter turns more.
@@ -310,9 +322,7 @@ double sin_of(const Angle& angle, unsigned more_quarter_turns) {
 
 } // namespace
 
-double exp(double x) {
-    return std::isnan(x) ? x : exp_of({x, 0});
-}
+double exp(double x) { return std::isnan(x) ? x : exp_of({x, 0}); }
 
 double log(double x) {
     if (x > 0) {
@@ -344,8 +354,6 @@ double sin(double x) {
     return std::signbit(x) ? -value : value;
 }
 
-double cos(double x) {
-    return std::isfinite(x) ? sin_of(reduced(std::abs(x)), 1) : not_a_number;
-}
+double cos(double x) { return std::isfinite(x) ? sin_of(reduced(std::abs(x)), 1) : not_a_number; }
 
 } // namespace carom::detail

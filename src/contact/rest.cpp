@@ -92,7 +92,7 @@ Pressure pressure_on(const State<Real>& state, Index body, const Support& suppor
 template <class Real>
 void hold_against(State<Real>& state, Index body, const Support& support, double remaining) {
     state.bodies.kind[body] = Kind::held;
-    Hold& hold = state.bodies.holds[state.bodies.slot[body]];
+    Hold& hold = state.bodies.holds[state.bodies.trait[body].slot];
     constexpr std::size_t most = 3;
     if (hold.supports.size() == most) hold.supports.erase(hold.supports.begin());
     hold.supports.push_back(support);

@@ -32,6 +32,9 @@ public:
     [[nodiscard]] bool empty() const { return heap_.empty(); }
     [[nodiscard]] const Event& top() const { return heap_.front(); }
 
+    /// An event that may come right after the top; none if the queue is short.
+    [[nodiscard]] const Event* candidate(std::size_t k) const { return k < heap_.size() ? &heap_[k] : nullptr; }
+
     void push(const Event& event) {
         heap_.push_back(event);
         std::push_heap(heap_.begin(), heap_.end(), Later{bodies_});
@@ -42,8 +45,8 @@ public:
     }
 
     [[nodiscard]] bool outdated(const Event& event) const {
-        if (bodies_->version[event.a] != event.version_a) return true;
-        return !event.at_wall() && bodies_->version[event.b] != event.version_b;
+        if (bodies_->trait[event.a].version != event.version_a) return true;
+        return !event.at_wall() && bodies_->trait[event.b].version != event.version_b;
     }
 
 private:
@@ -53,9 +56,9 @@ private:
             return x.time > y.time || (x.time == y.time && key(x) > key(y));
         }
         [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> key(const Event& e) const {
-            const std::uint32_t a = bodies->slot[e.a];
+            const std::uint32_t a = bodies->trait[e.a].slot;
             if (e.at_wall()) return {a, e.b};
-            return std::minmax(a, bodies->slot[e.b]);
+            return std::minmax(a, bodies->trait[e.b].slot);
         }
     };
 

@@ -82,16 +82,42 @@ double time_over_images(const State<Real>& state, Index a, Index b, double start
     return first;
 }
 
+/// Two bodies in free flight, which see no acceleration in each other: the usual case, without detours.
+template <class Real>
+double predict_free_pair(const State<Real>& state, Index a, Index b, double until) {
+    const Motion<Real>& m_a = state.bodies.motion[a];
+    const Motion<Real>& m_b = state.bodies.motion[b];
+    const double start = std::max(m_a.t, m_b.t);
+    Meeting m;
+    m.v_a = velocity_of(m_a);
+    m.v_b = velocity_of(m_b);
+    m.delta = to_metres(m_b.x - m_a.x, state.resolution);
+    if (m_a.t != m_b.t) {
+        const Vec3& g = state.laws.gravity;
+        m.d_a = displacement(m.v_a, g, start - m_a.t);
+        m.d_b = displacement(m.v_b, g, start - m_b.t);
+        m.v_a += g * (start - m_a.t);
+        m.v_b += g * (start - m_b.t);
+        m.delta += m.d_b - m.d_a;
+    }
+    const double contact = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
+    const double time = time_to_spheres(m.delta, m.v_b - m.v_a, contact, horizon_of(state, start, until, false));
+    return start + (time == 0 ? immediate(state, a, b, m, m.delta, Vec3{}) : time);
+}
+
 } // namespace
 
 template <class Real>
 double predict_pair(const State<Real>& state, Index i, Index j, double now, double until) {
     const Bodies<Real>& bodies = state.bodies;
     if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
-    const bool in_order = bodies.slot[i] < bodies.slot[j];
+    // Swapping two free bodies only turns signs round: no bit depends on their order.
+    const bool both_free = bodies.kind[i] == Kind::free && bodies.kind[j] == Kind::free;
+    if (both_free && !state.bounds.any_periodic()) return predict_free_pair(state, i, j, until);
+    const bool in_order = bodies.trait[i].slot < bodies.trait[j].slot;
     const Index a = in_order ? i : j;
     const Index b = in_order ? j : i;
-    if (rests_on(bodies, a, bodies.slot[b]) || rests_on(bodies, b, bodies.slot[a])) return no_impact;
+    if (rests_on(bodies, a, bodies.trait[b].slot) || rests_on(bodies, b, bodies.trait[a].slot)) return no_impact;
     const double start = std::max(bodies.motion[a].t, bodies.motion[b].t);
     if (state.bounds.any_periodic()) return start + time_over_images(state, a, b, start, now, until);
     const Meeting m = meeting_at(state, a, b, start);

@@ -14,7 +14,7 @@ constexpr std::uint32_t quick_impacts_allowed = 8;
 template <class Real>
 bool collapses(State<Real>& state, Index body, double time) {
     if (state.bodies.kind[body] == Kind::fixed) return false;
-    Flight& flight = state.bodies.flight[body];
+    Flight& flight = state.bodies.trait[body].flight;
     if (time - flight.last_impact > state.laws.collapse_time) flight.quick_impacts = 0;
     flight.quick_impacts = std::min(flight.quick_impacts + 1, quick_impacts_allowed + 1);
     flight.last_impact = time;
@@ -26,7 +26,7 @@ template <class Real>
 void take_part(State<Real>& state, Index body, double time) {
     if (state.bodies.kind[body] == Kind::fixed) return;
     advance(state, body, time);
-    ++state.bodies.version[body];
+    ++state.bodies.trait[body].version;
 }
 
 template <class Real>
@@ -36,7 +36,7 @@ void set_velocity(State<Real>& state, Index body, const Vec3& v) {
 
 template <class Real>
 double mass_of(const State<Real>& state, Index body) {
-    return static_cast<double>(state.bodies.mass[body]);
+    return static_cast<double>(state.bodies.trait[body].mass);
 }
 
 void apply_tc_rule(bool collapse, Encounter& encounter, Outcome& outcome) {
@@ -97,7 +97,7 @@ void execute_wall(State<Real>& state, const Event& event, Outcome& outcome) {
     const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
     const Support support{event.b, state.bounds.normal(wall, m.x, d, state.resolution)};
     take_part(state, event.a, event.time);
-    const ImpactRecord impact{.offset = event.time, .a = state.bodies.slot[event.a], .face = wall.face, .x = m.x,
+    const ImpactRecord impact{.offset = event.time, .a = state.bodies.trait[event.a].slot, .face = wall.face, .x = m.x,
                               .arm = support.normal * static_cast<double>(m.radius), .normal = support.normal};
     meet_support(state, event.a, support, encounter_of(state, event.a, wall), impact, outcome);
 }
@@ -123,19 +123,19 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Imp
 template <class Real>
 void execute_pair(State<Real>& state, const Event& event, Outcome& outcome) {
     const Bodies<Real>& bodies = state.bodies;
-    const bool in_order = bodies.slot[event.a] < bodies.slot[event.b];
+    const bool in_order = bodies.trait[event.a].slot < bodies.trait[event.b].slot;
     const Index a = in_order ? event.a : event.b;
     const Index b = in_order ? event.b : event.a;
     const Meeting meeting = meeting_at(state, a, b, event.time);
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
     take_part(state, a, event.time);
     take_part(state, b, event.time);
-    const ImpactRecord impact{.offset = event.time, .a = bodies.slot[a], .b = bodies.slot[b], .x = bodies.motion[a].x,
+    const ImpactRecord impact{.offset = event.time, .a = bodies.trait[a].slot, .b = bodies.trait[b].slot, .x = bodies.motion[a].x,
                               .arm = n * static_cast<double>(bodies.motion[a].radius), .normal = n};
     if (bodies.kind[a] == Kind::fixed) {
-        meet_support(state, b, {bodies.slot[a], -n}, encounter_of(state, a, b), impact, outcome);
+        meet_support(state, b, {bodies.trait[a].slot, -n}, encounter_of(state, a, b), impact, outcome);
     } else if (bodies.kind[b] == Kind::fixed) {
-        meet_support(state, a, {bodies.slot[b], n}, encounter_of(state, a, b), impact, outcome);
+        meet_support(state, a, {bodies.trait[b].slot, n}, encounter_of(state, a, b), impact, outcome);
     } else {
         meet_body(state, a, b, meeting, impact, outcome);
     }

@@ -20,6 +20,14 @@ bool stays_in_world(const State<Real>& state, Index body, const Vec3& accelerati
     return true;
 }
 
+/// m, how far from its place a body and its surface may get along any axis until `to`.
+template <class Real>
+double reach_of(const Motion<Real>& m, const Vec3& acceleration, double to) {
+    const auto sum = [](const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+    const double duration = to - m.t;
+    return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
+}
+
 /// The length (m) that ticks are made for: a body and its way through the window.
 double tick_scale(const Census& census, double duration, const Resolution& resolution) {
     return std::max(2 * (census.mean_radius + census.rms_speed * duration), resolution.metres);
@@ -31,7 +39,7 @@ template <class Real>
 Progress SerialSolver<Real>::resolve(const Census& census, double from, double to, std::uint64_t work_cap,
                                      Outcome& outcome) {
     Stopwatch watch;
-    build_cells(census, from, to);
+    find_neighbours(census, from, to);
     seconds_.cells += watch.lap();
     queue_.clear();
     predict_first(from, to);
@@ -42,21 +50,23 @@ Progress SerialSolver<Real>::resolve(const Census& census, double from, double t
 }
 
 template <class Real>
-void SerialSolver<Real>::build_cells(const Census& census, double from, double to) {
+void SerialSolver<Real>::find_neighbours(const Census& census, double from, double to) {
     const Bodies<Real>& bodies = state_.bodies;
-    ticks_ = Ticks(state_.bounds, state_.resolution, tick_scale(census, to - from, state_.resolution));
-    boxes_.resize(bodies.size());
+    const double duration = to - from;
+    ticks_ = Ticks(state_.bounds, state_.resolution, tick_scale(census, duration, state_.resolution));
+    // More slack means more neighbours to predict, less means more bodies that leave their covers.
+    const double slack_part = getenv("SLACK") ? atof(getenv("SLACK")) : 0.5;
+    slack_ = slack_part * census.rms_speed * duration;
+    covers_.resize(bodies.size());
     for (Index i = 0; i < bodies.size(); ++i) {
-        boxes_[i] = swept_box(ticks_, bodies.motion[i], acceleration_of(state_, i), from, to);
+        covers_[i] = swept_box(ticks_, bodies.motion[i], acceleration_of(state_, i), from, to, slack_);
     }
-    cells_.build(boxes_, ticks_.axes(census));
+    neighbours_.build(covers_, ticks_.axes(census));
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_first(double from, double to) {
-    pairs_.clear();
-    cells_.find_pairs(pairs_);
-    for (const auto& [a, b] : pairs_) predict(a, b, from, to);
+    for (const auto& [a, b] : neighbours_.pairs()) predict(a, b, from, to);
     for (Index i = 0; i < state_.bodies.size(); ++i) predict_walls(i, to);
 }
 
@@ -72,6 +82,7 @@ Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcom
             return {.reached = event.time, .work_cap_reached = true};
         }
         queue_.pop();
+        prefetch_next();
         execute(state_, event, outcome);
         bool inside = register_motion(event.a, event.time, to);
         if (!event.at_wall()) inside = register_motion(event.b, event.time, to) && inside;
@@ -82,22 +93,47 @@ Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcom
     return {.reached = to};
 }
 
+/// Successive impacts are anywhere in space, so in memory: asking for the next ones' bodies while this one is worked on
+/// hides most of the wait.
+template <class Real>
+void SerialSolver<Real>::prefetch_next() const {
+    constexpr std::size_t top_and_children = 3;
+    for (std::size_t k = 0; k < top_and_children; ++k) {
+        const Event* const next = queue_.candidate(k);
+        if (next == nullptr) return;
+        for (const Index body : {next->a, next->at_wall() ? next->a : next->b}) {
+            __builtin_prefetch(&state_.bodies.motion[body]);
+            __builtin_prefetch(&state_.bodies.trait[body]);
+            if (k == 0) {
+                prefetch_neighbours(body);
+            } else {
+                neighbours_.prefetch(body);
+            }
+        }
+    }
+}
+
+template <class Real>
+void SerialSolver<Real>::prefetch_neighbours(Index body) const {
+    neighbours_.for_each(body, [&](Index other) { __builtin_prefetch(&state_.bodies.motion[other]); });
+}
+
 template <class Real>
 bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     if (state_.bodies.kind[body] == Kind::fixed) return true;
     const Vec3 a = acceleration_of(state_, body);
     if (!stays_in_world(state_, body, a, to - now)) return false;
-    cells_.update(body, swept_box(ticks_, state_.bodies.motion[body], a, now, to));
+    const Motion<Real>& m = state_.bodies.motion[body];
+    neighbours_.update(body, swept_box(ticks_, m, a, now, to), swept_box(ticks_, m, a, now, to, slack_));
     return true;
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_again(Index body, Index except, double now, double to) {
     if (state_.bodies.kind[body] == Kind::fixed) return;
-    const Vec3 a = acceleration_of(state_, body);
-    const SweptBox box = swept_box(ticks_, state_.bodies.motion[body], a, now, to);
-    cells_.for_each_meeting(box, [&](Index other) {
-        if (other != body && other != except) predict(body, other, now, to);
+    prefetch_neighbours(body);
+    neighbours_.for_each(body, [&](Index other) {
+        if (other != except) predict(body, other, now, to);
     });
     predict_walls(body, to);
 }
@@ -106,16 +142,18 @@ template <class Real>
 void SerialSolver<Real>::predict(Index a, Index b, double now, double to) {
     ++predictions_;
     const double time = predict_pair(state_, a, b, now, to);
-    if (time <= to) queue_.push({time, a, b, state_.bodies.version[a], state_.bodies.version[b]});
+    if (time <= to) queue_.push({time, a, b, state_.bodies.trait[a].version, state_.bodies.trait[b].version});
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_walls(Index body, double to) {
     if (state_.bodies.kind[body] == Kind::fixed) return;
+    const Motion<Real>& m = state_.bodies.motion[body];
+    if (!state_.bounds.may_touch(m.x, reach_of(m, acceleration_of(state_, body), to), state_.resolution)) return;
     const auto count = static_cast<std::uint32_t>(state_.bounds.walls().size());
     for (std::uint32_t wall = 0; wall < count; ++wall) {
         const double time = predict_wall(state_, body, wall, to);
-        if (time <= to) queue_.push({time, body, Event::wall_bit | wall, state_.bodies.version[body], 0});
+        if (time <= to) queue_.push({time, body, Event::wall_bit | wall, state_.bodies.trait[body].version, 0});
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "impact/events.hpp"
 #include "impact/response.hpp"
-#include "space/cells.hpp"
+#include "space/neighbours.hpp"
 #include "space/ticks.hpp"
 
 namespace carom::core {
@@ -26,16 +26,19 @@ public:
     /// Executes all impacts in [from, to] (s since the start of the step).
     Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
 
-    [[nodiscard]] const Cells& cells() const { return cells_; }
+    [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
     /// Times of impact computed so far.
     [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
     /// Wall-clock seconds spent so far.
     [[nodiscard]] const PhaseTimes& seconds() const { return seconds_; }
 
 private:
-    void build_cells(const Census& census, double from, double to);
+    void find_neighbours(const Census& census, double from, double to);
     void predict_first(double from, double to);
     Progress run_queue(double to, std::uint64_t work_cap, Outcome& outcome);
+
+    void prefetch_next() const;
+    void prefetch_neighbours(Index body) const;
 
     /// Registers the new motion of a body at `now`; false if it leaves the representable world before `to`.
     bool register_motion(Index body, double now, double to);
@@ -45,10 +48,10 @@ private:
 
     State<Real>& state_;
     Ticks ticks_;
-    Cells cells_;
+    Neighbours neighbours_;
+    double slack_ = 0; ///< m, room in the covers for what impacts do
     EventQueue<Real> queue_;
-    std::vector<SweptBox> boxes_;
-    std::vector<Cells::Pair> pairs_;
+    std::vector<SweptBox> covers_;
     std::uint64_t predictions_ = 0;
     PhaseTimes seconds_{};
 };

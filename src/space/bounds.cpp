@@ -4,6 +4,8 @@
 
 #include <carom/collision.hpp>
 
+#include <algorithm>
+
 namespace carom::core {
 
 namespace {
@@ -70,8 +72,8 @@ void Bounds::add_box(const Box& box, const Resolution& resolution, const Int3& o
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             const Face& face = box.faces[2 * k + side];
             if (face.kind != FaceKind::reflecting) continue;
-            walls_.push_back({side == 0 ? low : high, axis_vector(k, side == 0 ? -1 : 1), axis, face.surface,
-                              static_cast<std::int32_t>(2 * k + side)});
+            add_wall({side == 0 ? low : high, axis_vector(k, side == 0 ? -1 : 1), axis, face.surface,
+                      static_cast<std::int32_t>(2 * k + side)});
         }
     }
 }
@@ -85,8 +87,8 @@ void Bounds::add_planes(const std::vector<Plane>& planes, const Resolution& reso
         if (plane.normal == Vec3{}) throw Error(ErrorCode::out_of_range, "region.normal", "must not be zero", i);
         check_surface(plane.surface, "region.surface", i);
         const Vec3 normal = contact_normal(-plane.normal, Vec3{});
-        walls_.push_back({position_units(plane.point, resolution, origin, "region.point", i), normal, axis_of(normal),
-                          plane.surface, static_cast<std::int32_t>(i)});
+        add_wall({position_units(plane.point, resolution, origin, "region.point", i), normal, axis_of(normal),
+                  plane.surface, static_cast<std::int32_t>(i)});
     }
 }
 
@@ -95,7 +97,21 @@ void Bounds::add_shell(const Shell& shell, const Resolution& resolution, const I
     check_surface(shell.surface, "region.surface", Error::no_index);
     shape_ = Shape::shell;
     shell_radius_ = shell.radius;
-    walls_.push_back({position_units(shell.centre, resolution, origin, "region.centre"), {}, -1, shell.surface, 0});
+    add_wall({position_units(shell.centre, resolution, origin, "region.centre"), {}, -1, shell.surface, 0});
+}
+
+void Bounds::add_wall(const Wall& wall) {
+    walls_.push_back(wall);
+    if (wall.axis < 0) {
+        only_axis_walls_ = false;
+        return;
+    }
+    const std::int64_t at = component(wall.point, wall.axis);
+    if (component(wall.normal, wall.axis) > 0) {
+        component(high_, wall.axis) = std::min(component(high_, wall.axis), at);
+    } else {
+        component(low_, wall.axis) = std::max(component(low_, wall.axis), at);
+    }
 }
 
 Int3 Bounds::wrapped(Int3 x) const {

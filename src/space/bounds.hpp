@@ -33,6 +33,17 @@ public:
     [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
     [[nodiscard]] double shell_radius() const { return shell_radius_; }
 
+    /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall.
+    [[nodiscard]] bool may_touch(const Int3& x, double reach, const Resolution& resolution) const {
+        // A little more than rounding can change, and the tolerance that lets touching bodies come to rest.
+        const double units = reach * resolution.per_metre * (1 + 1e-9) + 4;
+        constexpr double far = 1.0e17;
+        if (!only_axis_walls_ || !(units < far)) return true;
+        const auto margin = static_cast<std::int64_t>(units);
+        return (x.x - margin < low_.x) | (x.y - margin < low_.y) | (x.z - margin < low_.z) | (x.x + margin > high_.x) |
+               (x.y + margin > high_.y) | (x.z + margin > high_.z);
+    }
+
     /// Units; 0 along an axis that is not periodic.
     [[nodiscard]] std::int64_t period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
     [[nodiscard]] bool any_periodic() const { return period_[0] != 0 || period_[1] != 0 || period_[2] != 0; }
@@ -53,11 +64,19 @@ public:
     }
 
 private:
+    static constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
+    static constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
+
     void add_box(const Box& box, const Resolution& resolution, const Int3& origin);
     void add_planes(const std::vector<Plane>& planes, const Resolution& resolution, const Int3& origin);
     void add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin);
 
+    void add_wall(const Wall& wall);
+
     Shape shape_ = Shape::flat;
+    bool only_axis_walls_ = true;
+    Int3 low_{lowest, lowest, lowest};     ///< units; no axis-aligned wall beyond
+    Int3 high_{highest, highest, highest}; ///< units
     std::vector<Wall> walls_;
     std::array<std::int64_t, 3> period_{};
     Int3 period_start_{};

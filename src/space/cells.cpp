@@ -21,7 +21,7 @@ double bin_end(std::uint32_t bin) {
 
 /// The longest side, m.
 double longest(const SweptBox& box, const Cells::Axes& axes) {
-    const auto side = [&](std::size_t k) { return static_cast<double>(box.length[k]) / axes.ticks_per_metre[k]; };
+    const auto side = [&](std::size_t k) { return static_cast<double>(box.length[k]) * axes.metres_per_tick[k]; };
     return std::max({side(0), side(1), side(2)});
 }
 
@@ -49,7 +49,7 @@ std::array<Cells::Span, 3> Cells::reach_of(const Level& level, const SweptBox& b
     return {span(0), span(1), span(2)};
 }
 
-void Cells::build(const std::vector<SweptBox>& boxes, const Axes& axes) {
+void Cells::build(std::vector<SweptBox>& boxes, const Axes& axes) {
     choose_levels(boxes, axes);
     sort_into_cells(boxes);
     late_.clear();
@@ -69,28 +69,23 @@ double Cells::first_edge(std::size_t bodies) const {
     return most <= one_size * quantile(0.05) ? most : quantile(0.25);
 }
 
-void Cells::choose_levels(const std::vector<SweptBox>& boxes, const Axes& axes) {
+void Cells::choose_levels(std::vector<SweptBox>& boxes, const Axes& axes) {
+    // A sample is enough: levels decide about speed only.
+    constexpr std::size_t sample = 8;
     histogram_.assign(bin_count, 0);
-    double longest_box = 0;
-    for (const SweptBox& box : boxes) {
-        const double length = longest(box, axes);
-        longest_box = std::max(longest_box, length);
-        ++histogram_[length_bin(length)];
-    }
+    for (std::size_t i = 0; i < boxes.size(); i += sample) ++histogram_[length_bin(longest(boxes[i], axes))];
     levels_.clear();
-    for (double edge = first_edge(boxes.size());; edge *= 2) {
+    for (double edge = first_edge((boxes.size() + sample - 1) / sample);; edge *= 2) {
         Level level;
-        const auto ticks = [&](std::size_t k) { return edge * axes.ticks_per_metre[k] + 2; };
+        const auto ticks = [&](std::size_t k) { return edge / axes.metres_per_tick[k] + 2; };
         if (boxes.empty() || std::max({ticks(0), ticks(1), ticks(2)}) >= whole_turn / 4) break;
         for (std::size_t k = 0; k < 3; ++k) level.edge[k] = static_cast<Tick>(ticks(k));
         levels_.push_back(level);
-        if (edge >= longest_box) break;
     }
     levels_.push_back({.edge = {0xffffffffU, 0xffffffffU, 0xffffffffU}});
-    home_.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const std::size_t level = level_of(boxes[i]);
-        home_[i] = static_cast<std::uint32_t>(level);
+    for (SweptBox& box : boxes) {
+        const std::size_t level = level_of(box);
+        box.set_cell(static_cast<std::uint32_t>(level));
         ++levels_[level].population;
     }
     std::uint32_t first_cell = 0;
@@ -137,19 +132,21 @@ std::uint32_t Cells::home_cell(const Level& level, const SweptBox& box) {
     return level.cell_at(coordinate(0), coordinate(1), coordinate(2));
 }
 
-void Cells::sort_into_cells(const std::vector<SweptBox>& boxes) {
+void Cells::sort_into_cells(std::vector<SweptBox>& boxes) {
     const std::size_t cell_count = levels_.back().first_cell + 1;
     start_.assign(cell_count + 1, 0);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        home_[i] = home_cell(levels_[home_[i]], boxes[i]);
-        ++start_[home_[i] + 1];
+    for (SweptBox& box : boxes) {
+        // Until now the tag named the level only.
+        box.set_cell(home_cell(levels_[box.cell()], box));
+        ++start_[box.cell() + 1];
     }
     for (std::size_t c = 0; c < cell_count; ++c) start_[c + 1] += start_[c];
     sorted_.resize(boxes.size());
     place_.resize(boxes.size());
     for (Index i = 0; i < boxes.size(); ++i) {
-        const std::uint32_t place = start_[home_[i]]++;
-        sorted_[place] = {boxes[i], i, home_[i]};
+        const std::uint32_t place = start_[boxes[i].cell()]++;
+        boxes[i].set_body(i);
+        sorted_[place] = boxes[i];
         place_[i] = place;
     }
     for (std::size_t c = cell_count; c > 0; --c) start_[c] = start_[c - 1];
@@ -175,24 +172,30 @@ void Cells::update(Index body, const SweptBox& box) {
     if (body == place_.size()) place_.push_back(nothing);
     if (place_[body] != nothing) {
         const std::uint32_t place = place_[body];
-        Proxy& proxy = (place & late_bit) != 0 ? late_[place & ~late_bit].proxy : sorted_[place];
+        SweptBox& former = (place & late_bit) != 0 ? late_[place & ~late_bit].box : sorted_[place];
         const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) {
-            return proxy.cell < l.first_cell + l.cell_count();
+            return former.cell() < l.first_cell + l.cell_count();
         });
-        if (stays_findable(*level, proxy.cell, box)) {
-            proxy.box = box;
+        if (stays_findable(*level, former.cell(), box)) {
+            const std::uint32_t cell = former.cell();
+            former = box;
+            former.set_body(body);
+            former.set_cell(cell);
             return;
         }
-        proxy.body |= Proxy::outdated_bit;
+        former.set_outdated();
     }
-    const Level& level = levels_[level_of(box)];
+    Level& level = levels_[level_of(box)];
+    ++level.late;
     const std::uint32_t cell = home_cell(level, box);
-    late_.push_back({{box, body, cell}, late_head_[cell]});
+    late_.push_back({box, late_head_[cell]});
+    late_.back().box.set_body(body);
+    late_.back().box.set_cell(cell);
     late_head_[cell] = static_cast<std::uint32_t>(late_.size() - 1);
     place_[body] = late_bit | late_head_[cell];
 }
 
-void Cells::find_pairs(std::vector<Pair>& pairs) const {
+void Cells::find_pairs(PairList& pairs) const {
     for (std::size_t coarse = 0; coarse < levels_.size(); ++coarse) {
         if (levels_[coarse].population == 0) continue;
         pairs_inside(levels_[coarse], pairs);
@@ -202,48 +205,74 @@ void Cells::find_pairs(std::vector<Pair>& pairs) const {
     }
 }
 
-void Cells::pairs_inside(const Level& level, std::vector<Pair>& pairs) const {
-    const auto [nx, ny, nz] = level.cells;
-    const auto scan = [&](std::uint32_t i, std::uint32_t from, std::uint32_t to) {
-        const SweptBox& box = sorted_[i].box;
-        for (std::uint32_t j = from; j < to; ++j) {
-            if (meet(box, sorted_[j].box)) pairs.emplace_back(sorted_[i].body, sorted_[j].body);
-        }
-    };
-    // Half of the neighbours: the cell after this one in its row, and the three of each row that comes after.
-    constexpr std::array<std::array<std::int32_t, 2>, 4> rows_after{{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+std::size_t Cells::rows_after(const Level& level, std::uint32_t y, std::uint32_t z, std::array<std::uint32_t, 4>& rows) {
+    constexpr std::array<std::array<std::int32_t, 2>, 4> steps{{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
     const auto neighbour = [](std::uint32_t c, std::int32_t step, std::uint32_t n) {
-        return step > 0 ? (c + 1 == n ? 0 : c + 1) : step < 0 ? (c == 0 ? n - 1 : c - 1) : c;
+        if (step > 0) return c + 1 == n ? 0 : c + 1;
+        if (step < 0) return c == 0 ? n - 1 : c - 1;
+        return c;
     };
+    const auto [nx, ny, nz] = level.cells;
+    std::size_t count = 0;
+    for (const auto& [dy, dz] : steps) {
+        if ((dy != 0 && ny == 1) || (dz != 0 && nz == 1)) continue;
+        rows[count++] = level.cell_at(0, neighbour(y, dy, ny), neighbour(z, dz, nz));
+    }
+    return count;
+}
+
+Cells::Runs Cells::runs_after(std::uint32_t row, std::uint32_t x, std::uint32_t nx,
+                              std::span<const std::uint32_t> rows) const {
+    const std::uint32_t low = x == 0 ? 0 : x - 1;
+    const std::uint32_t high = x + 1 == nx ? nx : x + 2;
+    Runs runs;
+    runs.add(start_[row + x + 1], start_[row + high]);
+    for (const std::uint32_t other : rows) runs.add(start_[other + low], start_[other + high]);
+    if (nx == 1 || (x != 0 && x + 1 != nx)) return runs;
+    // The ends of a row are neighbours too.
+    const std::uint32_t across = x == 0 ? nx - 1 : 0;
+    if (x != 0) runs.add(start_[row], start_[row + 1]);
+    for (const std::uint32_t other : rows) runs.add(start_[other + across], start_[other + across + 1]);
+    return runs;
+}
+
+void Cells::pairs_of_cell(Run cell, const Runs& others, PairList& pairs) const {
+    const std::size_t inside = cell.to - cell.from;
+    Pair* out = pairs.room(inside * (inside + others.boxes));
+    const SweptBox* const boxes = sorted_.data();
+    for (std::uint32_t i = cell.from; i < cell.to; ++i) {
+        const MeetingTest meets(boxes[i]);
+        const Index body = boxes[i].body();
+        const auto scan = [&](std::uint32_t from, std::uint32_t to) {
+            for (std::uint32_t j = from; j < to; ++j) {
+                *out = {body, boxes[j].body()};
+                out += meets(boxes[j]) ? 1 : 0;
+            }
+        };
+        scan(i + 1, cell.to);
+        for (std::size_t k = 0; k < others.count; ++k) scan(others.runs[k].from, others.runs[k].to);
+    }
+    pairs.take(out);
+}
+
+void Cells::pairs_inside(const Level& level, PairList& pairs) const {
+    const auto [nx, ny, nz] = level.cells;
+    std::array<std::uint32_t, 4> others{};
     for (std::uint32_t z = 0; z < nz; ++z) {
         for (std::uint32_t y = 0; y < ny; ++y) {
             const std::uint32_t row = level.cell_at(0, y, z);
-            std::array<std::uint32_t, 4> others{};
-            std::size_t other_count = 0;
-            for (const auto& [dy, dz] : rows_after) {
-                if ((dy != 0 && ny == 1) || (dz != 0 && nz == 1)) continue;
-                others[other_count++] = level.cell_at(0, neighbour(y, dy, ny), neighbour(z, dz, nz));
-            }
+            if (start_[row] == start_[row + nx]) continue;
+            const std::size_t other_count = rows_after(level, y, z, others);
             for (std::uint32_t x = 0; x < nx; ++x) {
-                const std::uint32_t begin = start_[row + x];
-                const std::uint32_t end = start_[row + x + 1];
-                const bool last = x + 1 == nx;
-                for (std::uint32_t i = begin; i < end; ++i) {
-                    scan(i, i + 1, start_[row + x + (last ? 1 : 2)]);
-                    if (last && nx > 1) scan(i, start_[row], start_[row + 1]);
-                    for (std::size_t k = 0; k < other_count; ++k) {
-                        const std::uint32_t other = others[k];
-                        scan(i, start_[other + (x == 0 ? 0 : x - 1)], start_[other + (last ? nx : x + 2)]);
-                        if (nx > 1 && x == 0) scan(i, start_[other + nx - 1], start_[other + nx]);
-                        if (nx > 1 && last) scan(i, start_[other], start_[other + 1]);
-                    }
-                }
+                const Run cell{start_[row + x], start_[row + x + 1]};
+                if (cell.from == cell.to) continue;
+                pairs_of_cell(cell, runs_after(row, x, nx, {others.data(), other_count}), pairs);
             }
         }
     }
 }
 
-void Cells::pairs_across(const Level& fine, const Level& coarse, std::vector<Pair>& pairs) const {
+void Cells::pairs_across(const Level& fine, const Level& coarse, PairList& pairs) const {
     // Either side can look the other up; take the one that visits fewer rows of cells.
     const double ratio = static_cast<double>(coarse.edge[0]) / static_cast<double>(fine.edge[0]);
     const double fine_rows = std::min((ratio + 2) * (ratio + 2), 1.0 * fine.cells[1] * fine.cells[2]);
@@ -253,14 +282,18 @@ void Cells::pairs_across(const Level& fine, const Level& coarse, std::vector<Pai
     const Level& asked = from_coarse ? fine : coarse;
     const auto [begin, end] = sorted_range(asking);
     for (std::uint32_t k = begin; k < end; ++k) {
-        const Proxy& proxy = sorted_[k];
-        for_each_sorted(asked, proxy.box, [&](Index other) { pairs.emplace_back(proxy.body, other); });
+        const SweptBox& box = sorted_[k];
+        for_each_sorted(asked, box, [&](Index other) {
+            Pair* const out = pairs.room(1);
+            *out = {box.body(), other};
+            pairs.take(out + 1);
+        });
     }
 }
 
 void Cells::spatial_order(std::vector<Index>& order) const {
     order.resize(sorted_.size());
-    std::transform(sorted_.begin(), sorted_.end(), order.begin(), [](const Proxy& p) { return p.body & ~Proxy::outdated_bit; });
+    std::transform(sorted_.begin(), sorted_.end(), order.begin(), [](const SweptBox& box) { return box.body(); });
 }
 
 } // namespace carom::core

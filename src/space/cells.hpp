@@ -14,7 +14,10 @@
 #include "space/bodies.hpp"
 
 #include <array>
+#include <bit>
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,49 +25,95 @@ namespace carom::core {
 
 using Tick = std::uint32_t;
 
-/// Where a body may be during a window: lo + [0, length] on each axis, in ticks.
-struct SweptBox {
-    std::array<Tick, 3> lo{};
-    std::array<Tick, 3> length{};
+/// Where a body may be during a window: lo + [0, length] on each of the three axes, in ticks. The fourth element of
+/// each, which fills the line, is no part of the box: it says whose box this is and where it is registered.
+struct alignas(32) SweptBox {
+    std::array<Tick, 4> lo{};
+    std::array<Tick, 4> length{};
+
+    static constexpr std::size_t tag = 3;
+    static constexpr Index outdated_bit = 0x80000000U;
+
+    [[nodiscard]] Index body() const { return lo[tag] & ~outdated_bit; }
+    /// The body is registered with another box by now.
+    [[nodiscard]] bool outdated() const { return (lo[tag] & outdated_bit) != 0; }
+    /// Number of the cell among all cells of all levels.
+    [[nodiscard]] std::uint32_t cell() const { return length[tag]; }
+
+    void set_body(Index body) { lo[tag] = body; }
+    void set_outdated() { lo[tag] |= outdated_bit; }
+    void set_cell(std::uint32_t cell) { length[tag] = cell; }
 };
 
-/// Conservative: boxes that only share a tick meet.
-inline bool meet(const SweptBox& a, const SweptBox& b) {
-    const auto meet_on = [&a, &b](std::size_t k) {
-        return (b.lo[k] - a.lo[k] <= a.length[k]) || (a.lo[k] - b.lo[k] <= b.length[k]);
-    };
-    return meet_on(0) && meet_on(1) && meet_on(2);
-}
+/// Tests boxes against one: conservative, boxes that only share a tick meet. All axes at once and without branches, in
+/// the vector types that GCC and Clang translate for any machine: which axis parts two boxes is anybody's guess.
+class MeetingTest {
+public:
+    explicit MeetingTest(const SweptBox& box)
+        : shifted_lo_(lanes(box.lo) - half_turn), shifted_length_(signed_lanes(lanes(box.length) - half_turn)) {}
 
-/// A body's box and where it is registered.
-struct Proxy {
-    SweptBox box{};
-    Index body = no_index;    ///< with outdated_bit: the body is registered elsewhere by now
-    std::uint32_t cell = 0;   ///< number among all cells of all levels
+    [[nodiscard]] bool operator()(const SweptBox& other) const {
+        const Lanes lo = lanes(other.lo);
+        // Unsigned comparisons as signed ones, both sides shifted by half a turn.
+        const SignedLanes before = signed_lanes(lo - shifted_lo_) > shifted_length_;
+        const SignedLanes behind = signed_lanes(shifted_lo_ - lo) > signed_lanes(lanes(other.length) - half_turn);
+        const auto apart = std::bit_cast<Halves>(before & behind);
+        constexpr std::uint64_t third_lane = 0xffffffffU;
+        return (apart[0] | (apart[1] & third_lane)) == 0;
+    }
 
-    static constexpr Index outdated_bit = 0x80000000U;
-    [[nodiscard]] bool outdated() const { return (body & outdated_bit) != 0; }
+private:
+    using Lanes [[gnu::vector_size(16)]] = std::uint32_t;
+    using SignedLanes [[gnu::vector_size(16)]] = std::int32_t;
+    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
+    static constexpr std::uint32_t half_turn = 0x80000000U;
+
+    static Lanes lanes(const std::array<Tick, 4>& values) { return std::bit_cast<Lanes>(values); }
+    static SignedLanes signed_lanes(Lanes values) { return std::bit_cast<SignedLanes>(values); }
+
+    Lanes shifted_lo_;
+    SignedLanes shifted_length_;
+};
+
+/// A list of pairs that keeps its memory and is filled without a branch per element.
+class PairList {
+public:
+    using Pair = std::pair<Index, Index>;
+
+    void clear() { size_ = 0; }
+    [[nodiscard]] std::span<const Pair> pairs() const { return {storage_.data(), size_}; }
+
+    /// Room for `most` more pairs, to be written from here on; `take` tells how far it went.
+    Pair* room(std::size_t most) {
+        if (size_ + most > storage_.size()) storage_.resize(std::max(size_ + most, size_ + size_ / 4));
+        return storage_.data() + size_;
+    }
+    void take(const Pair* end) { size_ = static_cast<std::size_t>(end - storage_.data()); }
+
+private:
+    std::vector<Pair> storage_;
+    std::size_t size_ = 0;
 };
 
 /// A sorted index of swept boxes that takes changed boxes as it goes.
 class Cells {
 public:
-    using Pair = std::pair<Index, Index>;
+    using Pair = PairList::Pair;
 
     /// What the choice of levels needs to know of the axes.
     struct Axes {
-        std::array<double, 3> ticks_per_metre{};
+        std::array<double, 3> metres_per_tick{};
         /// Size of the world in ticks (2^32 and more: a whole turn): a hint that saves aliasing.
         std::array<double, 3> extent{};
     };
 
-    /// Registers one box per body; `boxes[i]` is that of body i.
-    void build(const std::vector<SweptBox>& boxes, const Axes& axes);
+    /// Registers one box per body; `boxes[i]` is that of body i. Uses its tags.
+    void build(std::vector<SweptBox>& boxes, const Axes& axes);
     /// Replaces the box of a body; a new body must have the next index.
     void update(Index body, const SweptBox& box);
 
     /// Every pair of bodies whose boxes of build() meet, once or more often. To be called before any update().
-    void find_pairs(std::vector<Pair>& pairs) const;
+    void find_pairs(PairList& pairs) const;
 
     /// Calls f(body) for every registered body whose box meets `box`, once or more often.
     template <class F>
@@ -74,6 +123,12 @@ public:
     void spatial_order(std::vector<Index>& order) const;
 
     [[nodiscard]] std::size_t size() const { return place_.size(); }
+    /// The box that a body is registered with.
+    [[nodiscard]] const SweptBox& box_of(Index body) const {
+        const std::uint32_t place = place_[body];
+        return (place & late_bit) != 0 ? late_[place & ~late_bit].box : sorted_[place];
+    }
+    void prefetch(Index body) const { __builtin_prefetch(&place_[body]); }
     /// Boxes that were registered beside the sorted ones since build().
     [[nodiscard]] std::size_t late() const { return late_.size(); }
 
@@ -87,7 +142,8 @@ private:
         std::array<std::uint32_t, 3> turns{};  ///< how often the grid repeats along the torus
         std::array<std::uint32_t, 3> cells{};  ///< cells along each axis, 1 or at least 3
         std::uint32_t first_cell = 0;
-        std::uint32_t population = 0;
+        std::uint32_t population = 0; ///< of build()
+        std::uint32_t late = 0;       ///< boxes that came later
 
         /// Cell coordinate of a tick: rises along each turn of the grid.
         [[nodiscard]] std::uint32_t coordinate(std::size_t axis, Tick tick) const {
@@ -119,17 +175,41 @@ private:
     /// The cells of `level` in which a body registered by its centre may meet a box.
     static std::array<Span, 3> reach_of(const Level& level, const SweptBox& box);
 
-    void choose_levels(const std::vector<SweptBox>& boxes, const Axes& axes);
+    void choose_levels(std::vector<SweptBox>& boxes, const Axes& axes);
     [[nodiscard]] double first_edge(std::size_t bodies) const;
     static void lay_out_level(Level& level, const Axes& axes);
     [[nodiscard]] static bool fits(const Level& level, const SweptBox& box);
     [[nodiscard]] std::size_t level_of(const SweptBox& box) const;
     static std::uint32_t home_cell(const Level& level, const SweptBox& box);
-    void sort_into_cells(const std::vector<SweptBox>& boxes);
+    void sort_into_cells(std::vector<SweptBox>& boxes);
     [[nodiscard]] static bool stays_findable(const Level& level, std::uint32_t cell, const SweptBox& box);
 
-    void pairs_inside(const Level& level, std::vector<Pair>& pairs) const;
-    void pairs_across(const Level& fine, const Level& coarse, std::vector<Pair>& pairs) const;
+    /// Runs of boxes in sorted_.
+    struct Run {
+        std::uint32_t from = 0;
+        std::uint32_t to = 0;
+    };
+    struct Runs {
+        std::array<Run, 10> runs{};
+        std::size_t count = 0;
+        std::uint32_t boxes = 0;
+
+        void add(std::uint32_t from, std::uint32_t to) {
+            runs[count] = {from, to};
+            count += from < to ? 1 : 0;
+            boxes += to - from;
+        }
+    };
+
+    /// The rows of cells that come after row (y, z) and touch it: half of its neighbours, so that pairs come once.
+    static std::size_t rows_after(const Level& level, std::uint32_t y, std::uint32_t z,
+                                  std::array<std::uint32_t, 4>& rows);
+    /// What the boxes of cell x of a row may meet in the rows after it, and in its own row after the cell.
+    [[nodiscard]] Runs runs_after(std::uint32_t row, std::uint32_t x, std::uint32_t nx,
+                                  std::span<const std::uint32_t> rows) const;
+    void pairs_of_cell(Run cell, const Runs& others, PairList& pairs) const;
+    void pairs_inside(const Level& level, PairList& pairs) const;
+    void pairs_across(const Level& fine, const Level& coarse, PairList& pairs) const;
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> sorted_range(const Level& level) const {
         return {start_[level.first_cell], start_[level.first_cell + level.cell_count()]};
     }
@@ -140,26 +220,26 @@ private:
     void for_each_late(const Level& level, const SweptBox& box, F&& f) const;
 
     struct Late {
-        Proxy proxy{};
+        SweptBox box{};
         std::uint32_t next = nothing;
     };
 
     std::vector<Level> levels_;
-    std::vector<Proxy> sorted_;
+    std::vector<SweptBox> sorted_;
     std::vector<std::uint32_t> start_;     ///< first of each cell in sorted_, and the end
     std::vector<std::uint32_t> late_head_; ///< per cell: list of late boxes
     std::vector<Late> late_;
     std::vector<std::uint32_t> place_;     ///< per body: where in sorted_, or late_bit | where in late_
     std::vector<std::uint32_t> histogram_; ///< of the logarithm of box lengths
-    std::vector<std::uint32_t> home_;      ///< per body: its cell, while sorting
 };
 
 template <class F>
 void Cells::for_each_sorted(const Level& level, const SweptBox& box, F&& f) const {
     const auto [xs, ys, zs] = reach_of(level, box);
+    const MeetingTest meets(box);
     const auto scan = [&](std::uint32_t first_cell, std::uint32_t end_cell) {
         for (std::uint32_t k = start_[first_cell]; k < start_[end_cell]; ++k) {
-            if (meet(sorted_[k].box, box) && !sorted_[k].outdated()) f(sorted_[k].body);
+            if (meets(sorted_[k]) && !sorted_[k].outdated()) f(sorted_[k].body());
         }
     };
     for (std::uint32_t j = 0; j < zs.count; ++j) {
@@ -175,13 +255,13 @@ void Cells::for_each_sorted(const Level& level, const SweptBox& box, F&& f) cons
 template <class F>
 void Cells::for_each_late(const Level& level, const SweptBox& box, F&& f) const {
     const auto [xs, ys, zs] = reach_of(level, box);
+    const MeetingTest meets(box);
     for (std::uint32_t j = 0; j < zs.count; ++j) {
         for (std::uint32_t i = 0; i < ys.count; ++i) {
             for (std::uint32_t h = 0; h < xs.count; ++h) {
                 std::uint32_t k = late_head_[level.cell_at(xs.at(h), ys.at(i), zs.at(j))];
                 for (; k != nothing; k = late_[k].next) {
-                    const Proxy& proxy = late_[k].proxy;
-                    if (!proxy.outdated() && meet(proxy.box, box)) f(proxy.body);
+                    if (!late_[k].box.outdated() && meets(late_[k].box)) f(late_[k].box.body());
                 }
             }
         }
@@ -192,7 +272,7 @@ template <class F>
 void Cells::for_each_meeting(const SweptBox& box, F&& f) const {
     for (const Level& level : levels_) {
         if (level.population > 0) for_each_sorted(level, box, f);
-        if (!late_.empty()) for_each_late(level, box, f);
+        if (level.late > 0) for_each_late(level, box, f);
     }
 }
 

@@ -17,7 +17,10 @@ public:
     explicit Placement(const State<Real>& state) : state_(state) {}
 
     /// To be called when bodies have moved, or changed places in memory.
-    void forget() { valid_ = false; }
+    void forget() {
+        cells_ = {};
+        valid_ = false;
+    }
 
     /// A body that overlaps body `i` by more than rounding, if there is one; of several the one with the least place in
     /// memory. Bodies from `end` on do not count. Static bodies may overlap each other.

@@ -62,21 +62,21 @@ template <class Real>
 Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     const Bodies<Real>& bodies = state.bodies;
     for (const MaterialRule& rule : state.laws.rules) {
-        const bool straight = rule.a == bodies.material[a] && rule.b == bodies.material[b];
-        const bool crossed = rule.a == bodies.material[b] && rule.b == bodies.material[a];
+        const bool straight = rule.a == bodies.trait[a].material && rule.b == bodies.trait[b].material;
+        const bool crossed = rule.a == bodies.trait[b].material && rule.b == bodies.trait[a].material;
         if (straight || crossed) return {rule.restitution, rule.friction};
     }
-    const auto mu_a = static_cast<double>(bodies.friction[a]);
-    const auto mu_b = static_cast<double>(bodies.friction[b]);
-    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])), std::sqrt(mu_a * mu_b)};
+    const auto mu_a = static_cast<double>(bodies.trait[a].friction);
+    const auto mu_b = static_cast<double>(bodies.trait[b].friction);
+    return {static_cast<double>(std::max(bodies.trait[a].restitution, bodies.trait[b].restitution)), std::sqrt(mu_a * mu_b)};
 }
 
 /// How a body meets a face: the face's e and mu where it has them, else the body's.
 template <class Real>
 Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall& wall) {
     const Bodies<Real>& bodies = state.bodies;
-    return {wall.surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
-            wall.surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
+    return {wall.surface.restitution.value_or(static_cast<double>(bodies.trait[body].restitution)),
+            wall.surface.friction.value_or(static_cast<double>(bodies.trait[body].friction))};
 }
 
 /// What accelerates a body between impacts, m/s^2.
@@ -95,7 +95,7 @@ template <class Real>
 Vec3 attraction(const State<Real>& state, Index i) {
     Vec3 sum{};
     for (const PointField& field : state.laws.fields) {
-        if (field.carrier == state.bodies.slot[i]) continue;
+        if (field.carrier == state.bodies.trait[i].slot) continue;
         const Vec3 d = to_metres(field.x - state.bodies.motion[i].x, state.resolution);
         const double distance_squared = length_squared(d) + field.softening * field.softening;
         if (distance_squared > 0) sum += d * (field.strength / (distance_squared * std::sqrt(distance_squared)));
@@ -128,25 +128,34 @@ Vec3 separation(const State<Real>& state, Index a, Index b, const Vec3& d_a, con
     return to_metres(difference, state.resolution) + (d_b - d_a);
 }
 
-/// Brings a body to time `s`: the one place that rounds a position, beside impacts' new velocities.
+/// Books what gravity, supports and friction did to a body on its way `d` (m) over `duration` (s).
+template <class Real>
+void book_way(State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration) {
+    const auto mass = static_cast<double>(state.bodies.trait[i].mass);
+    if (state.bodies.kind[i] == Kind::free) {
+        state.books.mass_time.add(mass * duration);
+    } else {
+        state.books.outer_impulse.add(a * (mass * duration));
+        state.books.lost_to_friction.add(-mass * dot(hold_of(state.bodies, i).friction, d));
+    }
+}
+
+/// Brings a body to time `s`: the one place that rounds a position.
 template <class Real>
 void advance(State<Real>& state, Index i, double s) {
-    Bodies<Real>& bodies = state.bodies;
-    Motion<Real>& m = bodies.motion[i];
+    Motion<Real>& m = state.bodies.motion[i];
     const double duration = s - m.t;
     const Vec3 a = acceleration_of(state, i);
     const Vec3 v = velocity_of(m);
+    m.t = s;
+    if (a == Vec3{}) {
+        m.x = m.x + round_to_units(v * duration, state.resolution);
+        return;
+    }
     const Vec3 d = displacement(v, a, duration);
     m.x = m.x + round_to_units(d, state.resolution);
-    m.t = s;
-    if (bodies.kind[i] == Kind::free) {
-        state.books.mass_time.add(static_cast<double>(bodies.mass[i]) * duration);
-    } else {
-        const auto mass = static_cast<double>(bodies.mass[i]);
-        state.books.outer_impulse.add(a * (mass * duration));
-        state.books.lost_to_friction.add(-mass * dot(hold_of(bodies, i).friction, d));
-    }
-    if (a != Vec3{}) m.v = rounded<Real>(v + a * duration);
+    m.v = rounded<Real>(v + a * duration);
+    book_way(state, i, a, d, duration);
 }
 
 } // namespace carom::core

@@ -60,7 +60,7 @@ Cells::Axes Ticks::axes(const Census& census) const {
         const Axis& axis = axes_[k];
         const double units = static_cast<double>(component(census.high, static_cast<int>(k))) -
                              static_cast<double>(component(census.low, static_cast<int>(k)));
-        axes.ticks_per_metre[k] = axis.per_metre;
+        axes.metres_per_tick[k] = 1 / axis.per_metre;
         axes.extent[k] = axis.per_unit != 0 ? 4294967296.0 : std::ldexp(units, -axis.shift);
     }
     return axes;

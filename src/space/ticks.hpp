@@ -56,7 +56,8 @@ private:
         constexpr double most = 4.0e9;
         const double first = low * axis.per_metre;
         const double last = high * axis.per_metre;
-        if (!(last - first < most) || !(std::abs(first) < 1e18)) {
+        constexpr double far = 1.0e18;
+        if (!(last - first < most && first > -far && last < far)) {
             box.length[K] = 0xffffffffU;
             return;
         }
@@ -74,9 +75,21 @@ private:
     std::array<Axis, 3> axes_{};
 };
 
-/// The box of a motion over [from, to] (s since the start of the step, not before motion.t).
+/// Widens [low, high] by the apex of a parabola, if it has one between t0 and t1.
+inline void include_apex(double speed, double acceleration, double t0, double t1, double& low, double& high) {
+    if (acceleration == 0) return;
+    const double apex = -speed / acceleration;
+    if (apex <= t0 || apex >= t1) return;
+    const double d = 0.5 * speed * apex;
+    low = std::min(low, d);
+    high = std::max(high, d);
+}
+
+/// The box of a motion over [from, to] (s since the start of the step, not before motion.t), with `slack` (m) more on
+/// each side.
 template <class Real>
-SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& acceleration, double from, double to) {
+SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& acceleration, double from, double to,
+                   double slack = 0) {
     const Vec3 v = velocity_of(motion);
     const double t0 = from - motion.t;
     const double t1 = to - motion.t;
@@ -84,18 +97,12 @@ SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& a
     const Vec3 b = displacement(v, acceleration, t1);
     Vec3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
     Vec3 high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-    const auto include_apex = [&](double speed, double acc, double& least, double& most) {
-        if (acc == 0) return;
-        const double apex = -speed / acc;
-        if (apex <= t0 || apex >= t1) return;
-        const double d = 0.5 * speed * apex;
-        least = std::min(least, d);
-        most = std::max(most, d);
-    };
-    include_apex(v.x, acceleration.x, low.x, high.x);
-    include_apex(v.y, acceleration.y, low.y, high.y);
-    include_apex(v.z, acceleration.z, low.z, high.z);
-    return ticks.box(motion.x, low, high, static_cast<double>(motion.radius));
+    if (acceleration != Vec3{}) {
+        include_apex(v.x, acceleration.x, t0, t1, low.x, high.x);
+        include_apex(v.y, acceleration.y, t0, t1, low.y, high.y);
+        include_apex(v.z, acceleration.z, t0, t1, low.z, high.z);
+    }
+    return ticks.box(motion.x, low, high, static_cast<double>(motion.radius) + slack);
 }
 
 } // namespace carom::core

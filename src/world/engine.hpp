@@ -95,11 +95,10 @@ private:
     [[nodiscard]] Vec3 api_position(const Int3& x) const { return to_metres(x - setting_.origin, setting_.resolution); }
 
     // engine_step.cpp
-    void check_step(double dt);
+    void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
     void finish_bodies(double reached);
-    void forget_old_flights(double reached);
     void keep_spatial_order();
     void finish_step(double dt, double reached);
     void publish_impacts(double start);

@@ -158,15 +158,12 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
         const double mass = element(columns.mass, k, standard.mass);
         bodies.motion.push_back({positions[k], 0, rounded<Real>(element(columns.velocity, k, standard.velocity)),
                                  static_cast<Real>(element(columns.radius, k, standard.radius))});
-        bodies.mass.push_back(static_cast<Real>(mass));
-        bodies.restitution.push_back(static_cast<Real>(element(columns.restitution, k, standard.restitution)));
-        bodies.friction.push_back(static_cast<Real>(element(columns.friction, k, standard.friction)));
-        bodies.material.push_back(element(columns.material, k, standard.material));
-        bodies.user_data.push_back(element(columns.user_data, k, standard.user_data));
-        bodies.flight.emplace_back();
+        bodies.trait.push_back({.mass = static_cast<Real>(mass),
+                                .restitution = static_cast<Real>(element(columns.restitution, k, standard.restitution)),
+                                .friction = static_cast<Real>(element(columns.friction, k, standard.friction)),
+                                .material = element(columns.material, k, standard.material)});
         bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
-        bodies.version.push_back(0);
-        bodies.slot.push_back(0);
+        bodies.user_data.push_back(element(columns.user_data, k, standard.user_data));
         if (bodies.interpolating) bodies.previous.push_back(positions[k]);
     }
 }
@@ -182,7 +179,7 @@ void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
         if (!other) continue;
         const std::string name = *other >= first_new ? "body " + std::to_string(*other - first_new) + " of this call"
-                                                     : "the body in slot " + std::to_string(state_.bodies.slot[*other]);
+                                                     : "the body in slot " + std::to_string(state_.bodies.trait[*other].slot);
         throw Error(ErrorCode::overlap, "position", "overlaps " + name, i - first_new);
     }
 }
@@ -199,7 +196,7 @@ BodyId Engine<Real>::give_id(Index index) {
         bodies.free_slots.pop_back();
     }
     bodies.slots[slot].index = index;
-    bodies.slot[index] = slot;
+    bodies.trait[index].slot = slot;
     return id_of(slot);
 }
 
@@ -247,18 +244,18 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     };
     fill(columns.position, [&](Index i) { return api_position(bodies.motion[i].x); });
     fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
-    fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.mass[i]); });
+    fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.trait[i].mass); });
     fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
-    fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
-    fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
-    fill(columns.material, [&](Index i) { return bodies.material[i]; });
+    fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.trait[i].restitution); });
+    fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.trait[i].friction); });
+    fill(columns.material, [&](Index i) { return bodies.trait[i].material; });
     fill(columns.user_data, [&](Index i) { return bodies.user_data[i]; });
 }
 
 template <class Real>
 void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const {
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.mass[indices[k]]));
+        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.trait[indices[k]].mass));
         const Vec3 velocity = element(columns.velocity, k, velocity_of(state_.bodies.motion[indices[k]]));
         if (std::isinf(mass) && velocity != Vec3{}) {
             throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
@@ -274,7 +271,7 @@ void Engine<Real>::check_moved(const std::vector<Index>& indices) {
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
         if (!other) continue;
         throw Error(ErrorCode::overlap, "position",
-                    "overlaps the body in slot " + std::to_string(state_.bodies.slot[*other]), k);
+                    "overlaps the body in slot " + std::to_string(state_.bodies.trait[*other].slot), k);
     }
 }
 
@@ -322,10 +319,10 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
         for (std::size_t k = 0; k < column.size(); ++k) writer(indices[k], column[k]);
     };
     write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
-    write(columns.mass, [&](Index i, double mass) { bodies.mass[i] = static_cast<Real>(mass); });
-    write(columns.restitution, [&](Index i, double e) { bodies.restitution[i] = static_cast<Real>(e); });
-    write(columns.friction, [&](Index i, double mu) { bodies.friction[i] = static_cast<Real>(mu); });
-    write(columns.material, [&](Index i, std::uint32_t key) { bodies.material[i] = key; });
+    write(columns.mass, [&](Index i, double mass) { bodies.trait[i].mass = static_cast<Real>(mass); });
+    write(columns.restitution, [&](Index i, double e) { bodies.trait[i].restitution = static_cast<Real>(e); });
+    write(columns.friction, [&](Index i, double mu) { bodies.trait[i].friction = static_cast<Real>(mu); });
+    write(columns.material, [&](Index i, std::uint32_t key) { bodies.trait[i].material = key; });
     write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data[i] = data; });
 }
 
@@ -379,7 +376,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
     const std::vector<Index> indices = indices_of(ids);
     Bodies<Real>& bodies = state_.bodies;
     const auto change = [&](std::size_t k) {
-        return are_impulses ? changes[k] / static_cast<double>(bodies.mass[indices[k]]) : changes[k];
+        return are_impulses ? changes[k] / static_cast<double>(bodies.trait[indices[k]].mass) : changes[k];
     };
     for (std::size_t k = 0; k < indices.size(); ++k) {
         check_finite(changes[k], field, k);

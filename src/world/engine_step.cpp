@@ -34,41 +34,43 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
 } // namespace
 
 template <class Real>
-void Engine<Real>::check_step(double dt) {
-    check_positive(dt, "dt");
-    const Vec3 gravity = state_.laws.gravity;
+void Engine<Real>::check_step(const Census& census, double dt) const {
+    const double gravity = length(state_.laws.gravity);
+    const auto farthest = [](const Int3& x) {
+        const auto away = [](std::int64_t c) { return std::abs(static_cast<double>(c)); };
+        return std::max({away(x.x), away(x.y), away(x.z)});
+    };
+    const auto edge = static_cast<double>(world_edge);
+    const auto end_of = [&](double distance, double speed) {
+        return distance + (speed + gravity * dt) * dt * setting_.resolution.per_metre;
+    };
+    const double all = end_of(std::max(farthest(census.low), farthest(census.high)), census.top_speed);
+    if (state_.laws.fields.empty() && all < edge) return;
     for (Index i = 0; i < size(); ++i) {
         if (state_.bodies.kind[i] == Kind::fixed) continue;
-        const Motion<Real>& m = state_.bodies.motion[i];
-        const Vec3 v = velocity_of(m);
-        const Vec3 kick = state_.laws.fields.empty() ? Vec3{} : attraction(state_, i) * (0.5 * dt);
-        for (int axis = 0; axis < 3; ++axis) {
-            const double speed = std::abs(component(v, axis)) + std::abs(component(kick, axis)) +
-                                 std::abs(component(gravity, axis)) * dt;
-            const double way = speed * dt * setting_.resolution.per_metre;
-            const double end = std::abs(static_cast<double>(component(m.x, axis))) + way;
-            if (end < static_cast<double>(world_edge)) continue;
-            throw Error(ErrorCode::out_of_world, "position",
-                        "would leave the world of +-" +
-                            shown(static_cast<double>(world_edge) * setting_.resolution.metres) +
-                            " m; set the resolution to " +
-                            shown(resolution_for(end * setting_.resolution.metres)) + " m or more, or take shorter steps",
-                        state_.bodies.slot[i]);
-        }
+        const double speed = length(velocity_of(state_.bodies.motion[i])) + length(attraction(state_, i)) * (0.5 * dt);
+        const double end = end_of(farthest(state_.bodies.motion[i].x), speed);
+        if (end < edge) continue;
+        throw Error(ErrorCode::out_of_world, "position",
+                    "would leave the world of +-" + shown(edge * setting_.resolution.metres) +
+                        " m; set the resolution to " + shown(resolution_for(end * setting_.resolution.metres)) +
+                        " m or more, or take shorter steps",
+                    state_.bodies.trait[i].slot);
     }
 }
 
 template <class Real>
 const StepReport& Engine<Real>::step(double dt) {
     Stopwatch watch;
+    check_positive(dt, "dt");
     state_.laws.fields = placed_fields();
-    check_step(dt);
+    const Census census = take_census(state_.bodies);
+    check_step(census, dt);
     begin_step(dt);
+    report_.seconds.cells += watch.lap();
     first_kick(0.5 * dt);
     refresh_holds(state_, dt);
     report_.seconds.forces += watch.lap();
-    const Census census = take_census(state_.bodies);
-    report_.seconds.cells += watch.lap();
     const double reached = resolve_impacts(census, dt);
     watch.lap();
     finish_bodies(reached);
@@ -121,20 +123,14 @@ void Engine<Real>::finish_bodies(double reached) {
     Bodies<Real>& bodies = state_.bodies;
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] == Kind::fixed) continue;
+        Trait<Real>& trait = bodies.trait[i];
         advance(state_, i, reached);
         Motion<Real>& m = bodies.motion[i];
         if (state_.bounds.any_periodic()) m.x = state_.bounds.wrapped(m.x);
         m.t = 0;
-    }
-    forget_old_flights(reached);
-}
-
-template <class Real>
-void Engine<Real>::forget_old_flights(double reached) {
-    for (Flight& flight : state_.bodies.flight) {
-        if (flight.quick_impacts == 0) continue;
-        flight.last_impact -= reached;
-        if (-flight.last_impact > state_.laws.collapse_time) flight = {};
+        if (trait.flight.quick_impacts == 0) continue;
+        trait.flight.last_impact -= reached;
+        if (-trait.flight.last_impact > state_.laws.collapse_time) trait.flight = {};
     }
 }
 
@@ -144,7 +140,7 @@ void Engine<Real>::keep_spatial_order() {
     constexpr std::uint32_t steps_between = 16;
     if (steps_since_order_++ % steps_between != 0) return;
     std::vector<Index> order;
-    solver_.cells().spatial_order(order);
+    solver_.neighbours().spatial_order(order);
     reorder(state_.bodies, order);
 }
 

@@ -23,12 +23,12 @@ Energy Engine<Real>::energy() const {
     const std::vector<PointField> fields = placed_fields();
     for_each_mover(state_.bodies, [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
-        const auto mass = static_cast<double>(state_.bodies.mass[i]);
+        const auto mass = static_cast<double>(state_.bodies.trait[i].mass);
         kinetic.add(0.5 * mass * length_squared(velocity_of(m)));
         const Vec3 from_origin = to_metres(m.x - setting_.first_origin, setting_.resolution);
         if (state_.laws.gravity != Vec3{}) potential.add(-mass * dot(state_.laws.gravity, from_origin));
         for (const PointField& field : fields) {
-            if (field.carrier == state_.bodies.slot[i]) continue;
+            if (field.carrier == state_.bodies.trait[i].slot) continue;
             const double distance_squared = length_squared(to_metres(field.x - m.x, setting_.resolution)) +
                                             field.softening * field.softening;
             if (distance_squared > 0) potential.add(-mass * field.strength / std::sqrt(distance_squared));
@@ -41,7 +41,7 @@ template <class Real>
 Vec3 Engine<Real>::momentum() const {
     VectorSum sum;
     for_each_mover(state_.bodies, [&](Index i) {
-        sum.add(velocity_of(state_.bodies.motion[i]) * static_cast<double>(state_.bodies.mass[i]));
+        sum.add(velocity_of(state_.bodies.motion[i]) * static_cast<double>(state_.bodies.trait[i].mass));
     });
     return sum.value();
 }
@@ -52,7 +52,7 @@ Vec3 Engine<Real>::angular_momentum(const Vec3& about) const {
     VectorSum sum;
     for_each_mover(state_.bodies, [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
-        sum.add(cross(api_position(m.x) - about, velocity_of(m) * static_cast<double>(state_.bodies.mass[i])));
+        sum.add(cross(api_position(m.x) - about, velocity_of(m) * static_cast<double>(state_.bodies.trait[i].mass)));
     });
     return sum.value();
 }
@@ -62,7 +62,7 @@ Vec3 Engine<Real>::centre_of_mass() const {
     VectorSum moment;
     Sum mass;
     for_each_mover(state_.bodies, [&](Index i) {
-        const auto m = static_cast<double>(state_.bodies.mass[i]);
+        const auto m = static_cast<double>(state_.bodies.trait[i].mass);
         moment.add(api_position(state_.bodies.motion[i].x) * m);
         mass.add(m);
     });

@@ -63,7 +63,7 @@ void Engine<Real>::attract(double duration) {
         if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before + change);
-        state_.books.outer_impulse.add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.mass[i]));
+        state_.books.outer_impulse.add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass));
     }
 }
 
@@ -77,7 +77,7 @@ void Engine<Real>::drag(double duration) {
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before * drag_factor(law, length(before), duration));
         const Vec3 after = velocity_of(bodies.motion[i]);
-        const auto mass = static_cast<double>(bodies.mass[i]);
+        const auto mass = static_cast<double>(bodies.trait[i].mass);
         state_.books.outer_impulse.add((after - before) * mass);
         state_.books.lost_to_drag.add(0.5 * mass * dot(before - after, before + after));
     }

@@ -101,6 +101,11 @@ void transfer(Archive& archive, Flight& flight) {
     archive(flight.last_impact, flight.quick_impacts);
 }
 
+template <class Archive, class Real>
+void transfer(Archive& archive, Trait<Real>& trait) {
+    archive(trait.mass, trait.restitution, trait.friction, trait.material, trait.slot, trait.flight);
+}
+
 template <class Archive>
 void transfer(Archive& archive, Slot& slot) {
     archive(slot.index, slot.generation);
@@ -215,8 +220,7 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive) {
     Bodies<Real>& b = state_.bodies;
-    archive(b.motion, b.mass, b.restitution, b.friction, b.material, b.user_data, b.flight, b.kind, b.slot, b.previous,
-            b.slots, b.free_slots, b.holds, state_.books, attractors_, clock_, ledger_, last_step_,
+    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, state_.books, attractors_, clock_, ledger_, last_step_,
             steps_since_order_);
 }
 
@@ -244,7 +248,6 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     Reader reader(payload);
     transfer(reader);
     if (reader.left() != 0) refuse("has bytes after its end");
-    state_.bodies.version.assign(size(), 0);
     check_loaded();
     refresh_holds(state_, 0);
 }
@@ -253,11 +256,10 @@ template <class Real>
 void Engine<Real>::check_loaded() const {
     const Bodies<Real>& b = state_.bodies;
     const auto same = [&](const auto& array) { return array.size() == size(); };
-    bool sound = same(b.mass) && same(b.restitution) && same(b.friction) && same(b.material) && same(b.user_data) &&
-                 same(b.flight) && same(b.kind) && same(b.slot) && (same(b.previous) || !b.interpolating);
+    bool sound = same(b.kind) && same(b.trait) && same(b.user_data) && (same(b.previous) || !b.interpolating);
     for (Index i = 0; sound && i < size(); ++i) {
-        sound = b.slot[i] < b.slots.size() && b.slots[b.slot[i]].index == i && b.kind[i] <= Kind::held &&
-                (b.kind[i] == Kind::held) == b.holds.contains(b.slot[i]) && b.mass[i] > 0 && b.motion[i].radius >= 0;
+        sound = b.trait[i].slot < b.slots.size() && b.slots[b.trait[i].slot].index == i && b.kind[i] <= Kind::held &&
+                (b.kind[i] == Kind::held) == b.holds.contains(b.trait[i].slot) && b.trait[i].mass > 0 && b.motion[i].radius >= 0;
     }
     for (const Slot& slot : b.slots) sound = sound && (slot.index == no_index || slot.index < size());
     for (const std::uint32_t slot : b.free_slots) sound = sound && slot < b.slots.size();
@@ -282,7 +284,7 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
-        hasher(state_.bodies.flight[i].last_impact, state_.bodies.flight[i].quick_impacts);
+        hasher(state_.bodies.trait[i].flight.last_impact, state_.bodies.trait[i].flight.quick_impacts);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }

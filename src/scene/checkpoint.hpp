@@ -1,0 +1,66 @@
+/// \file
+/// Checkpoints: a run as it stands after a step, to be continued bit-identically.
+#pragma once
+
+#include "scene/metrics.hpp"
+#include "scene/timeline.hpp"
+
+#include <carom/world.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom::scene {
+
+/// What a run was started with, as far as its results depend on it: a checkpoint is continued only by the same.
+struct RunIdentity {
+    std::string scene;         ///< its name
+    std::uint64_t bodies = 0;  ///< at the start
+    std::uint64_t world = 0;   ///< hash of the world's snapshot at the start: everything else of the scene
+    Precision precision = Precision::double_precision;
+    double dt = 0;             ///< s
+    double timeline_every = 0; ///< s between rows of the timeline; 0: a row per step
+    bool check_overlap = true;
+    bool record_impacts = false;
+
+    friend bool operator==(const RunIdentity&, const RunIdentity&) = default;
+};
+
+/// The identity of the run of `world`, which has not done a step yet; the other members are the caller's to fill in.
+/// A snapshot holds the number that the world has in its process: two processes agree if it is the first in each.
+RunIdentity identity_of(const World& world, std::string scene);
+
+/// What keeps a run with the identity `wanted` from continuing one that was `saved`; nothing if they are the same.
+std::optional<std::string> difference(const RunIdentity& saved, const RunIdentity& wanted);
+
+/// How far a run has come, apart from its world.
+struct RunProgress {
+    std::uint64_t steps = 0;       ///< steps of dt done
+    bool last_step_short = false;  ///< the last one was shortened to end at the time asked for
+    Books start;                   ///< at time 0
+    double largest_overlap = 0;    ///< over the ends of all steps so far, diameters
+    std::uint64_t contacts = 0;    ///< bodies held at rest at the end of the last step
+    std::vector<TimelineRow> rows; ///< those that are due at regular times
+    std::string impact_log;        ///< lines of impacts.csv; empty if impacts are not recorded
+};
+
+struct Checkpoint {
+    RunIdentity identity;
+    RunProgress progress;
+    World world;
+};
+
+/// A checkpoint as bytes: versioned, checksummed, the same on every machine.
+std::vector<std::byte> save_checkpoint(const RunIdentity& identity, const RunProgress& progress, const World& world);
+
+/// True if the bytes begin like a checkpoint's, sound or not.
+bool looks_like_checkpoint(std::span<const std::byte> bytes);
+
+/// Throws carom::Error{bad_data} saying what is wrong with the bytes.
+Checkpoint load_checkpoint(std::span<const std::byte> bytes);
+
+} // namespace carom::scene

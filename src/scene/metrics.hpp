@@ -1,0 +1,36 @@
+/// \file
+/// The figures that say how well a world kept its books: energy_drift and momentum_drift.
+#pragma once
+
+#include <carom/events.hpp>
+#include <carom/vec3.hpp>
+#include <carom/world.hpp>
+
+namespace carom::scene {
+
+/// The books of a world at one time. Its sums are taken in double with compensation.
+struct Books {
+    double kinetic = 0;        ///< J
+    double potential = 0;      ///< J
+    double lost = 0;           ///< J, booked as lost to restitution, friction and drag since the world was made
+    Vec3 momentum{};           ///< kg m/s
+    Vec3 outer_impulse{};      ///< N s from gravity, attractors, drag, walls and static bodies since the world was made
+    double momentum_scale = 0; ///< kg m/s, sum of m |v|
+
+    [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
+/// J booked as lost, of all kinds.
+double energy_lost(const Ledger& ledger);
+
+/// Reads the books of `world`.
+Books read_books(const World& world);
+
+/// (E_end + losses booked in between - E_start) / max(K_start, K_end); 0 where nothing moves at either time.
+double energy_drift(const Books& start, const Books& end);
+
+/// |P_end - P_start - impulses from outside in between| / sum of m |v|, of the two sums the larger; 0 where nothing
+/// moves at either time.
+double momentum_drift(const Books& start, const Books& end);
+
+} // namespace carom::scene

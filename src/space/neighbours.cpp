@@ -1,0 +1,58 @@
+#include "space/neighbours.hpp"
+
+namespace carom::core {
+
+namespace {
+
+/// Whether `outer` holds all of `inner`.
+bool holds(const SweptBox& outer, const SweptBox& inner) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint64_t offset = inner.lo[k] - outer.lo[k];
+        if (outer.length[k] != 0xffffffffU && offset + inner.length[k] > outer.length[k]) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void Neighbours::build(std::vector<SweptBox>& covers, const Cells::Axes& axes) {
+    cells_.build(covers, axes);
+    pairs_.clear();
+    cells_.find_pairs(pairs_);
+    make_lists(covers.size());
+    newest_link_.assign(covers.size(), nothing);
+    links_.clear();
+}
+
+void Neighbours::make_lists(std::size_t bodies) {
+    first_.assign(bodies + 1, 0);
+    for (const auto& [a, b] : pairs()) {
+        ++first_[a];
+        ++first_[b];
+    }
+    std::uint32_t end = 0;
+    for (std::uint32_t& first : first_) first = end += first;
+    list_.resize(2 * pairs().size());
+    // From the ends down: afterwards each entry is where its list begins.
+    for (const auto& [a, b] : pairs()) {
+        list_[--first_[a]] = b;
+        list_[--first_[b]] = a;
+    }
+}
+
+void Neighbours::link(Index body, Index other) {
+    links_.push_back({other, newest_link_[body]});
+    newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
+}
+
+void Neighbours::update(Index body, const SweptBox& box, const SweptBox& cover) {
+    if (holds(cells_.box_of(body), box)) return;
+    cells_.update(body, cover);
+    cells_.for_each_meeting(cover, [&](Index other) {
+        if (other == body) return;
+        link(body, other);
+        link(other, body);
+    });
+}
+
+} // namespace carom::core

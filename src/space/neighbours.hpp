@@ -1,0 +1,62 @@
+/// \file
+/// Who may meet whom during a window: for each body the list of those whose covers meet its own.
+#pragma once
+
+#include "space/cells.hpp"
+
+#include <vector>
+
+namespace carom::core {
+
+/// A body's *cover* is a box that holds its swept box with some slack. As long as the body stays in its cover,
+/// whatever impacts do to it, all that it may meet are its neighbours: a list that lies together in memory, where a
+/// search through cells would touch dozens of places. A body that leaves its cover gets a new one, and new links.
+class Neighbours {
+public:
+    using Pair = Cells::Pair;
+
+    /// `covers[i]` is that of body i.
+    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes);
+
+    /// Pairs of neighbours as of build(), once or more often.
+    [[nodiscard]] std::span<const Pair> pairs() const { return pairs_.pairs(); }
+
+    /// A body moves within `box` from now on. If that is not in its cover, `cover` becomes its cover.
+    void update(Index body, const SweptBox& box, const SweptBox& cover);
+
+    /// Calls f(other) for every neighbour, once or more often.
+    template <class F>
+    void for_each(Index body, F&& f) const {
+        for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) f(list_[k]);
+        for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) f(links_[k].other);
+    }
+
+    /// Asks for the memory that update() and for_each() will need.
+    void prefetch(Index body) const {
+        __builtin_prefetch(&first_[body]);
+        __builtin_prefetch(&newest_link_[body]);
+        cells_.prefetch(body);
+    }
+
+    void spatial_order(std::vector<Index>& order) const { cells_.spatial_order(order); }
+
+private:
+    static constexpr std::uint32_t nothing = 0xffffffffU;
+
+    struct Link {
+        Index other = no_index;
+        std::uint32_t next = nothing;
+    };
+
+    void make_lists(std::size_t bodies);
+    void link(Index body, Index other);
+
+    Cells cells_;
+    PairList pairs_;
+    std::vector<std::uint32_t> first_;       ///< per body: where its neighbours begin in list_; and the end
+    std::vector<Index> list_;
+    std::vector<std::uint32_t> newest_link_; ///< per body: head of its later neighbours
+    std::vector<Link> links_;
+};
+
+} // namespace carom::core
