@@ -55,11 +55,15 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
     const double duration = to - from;
     ticks_ = Ticks(state_.bounds, state_.resolution, tick_scale(census, duration, state_.resolution));
     // More slack means more neighbours to predict, less means more bodies that leave their covers.
-    const double slack_part = getenv("SLACK") ? atof(getenv("SLACK")) : 0.5;
+    constexpr double slack_part = 0.3;
     slack_ = slack_part * census.rms_speed * duration;
     covers_.resize(bodies.size());
+    near_walls_.clear();
     for (Index i = 0; i < bodies.size(); ++i) {
-        covers_[i] = swept_box(ticks_, bodies.motion[i], acceleration_of(state_, i), from, to, slack_);
+        const Motion<Real>& m = bodies.motion[i];
+        const Vec3 a = acceleration_of(state_, i);
+        covers_[i] = swept_box(ticks_, m, a, from, to, slack_);
+        if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
     }
     neighbours_.build(covers_, ticks_.axes(census));
 }
@@ -67,7 +71,7 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
 template <class Real>
 void SerialSolver<Real>::predict_first(double from, double to) {
     for (const auto& [a, b] : neighbours_.pairs()) predict(a, b, from, to);
-    for (Index i = 0; i < state_.bodies.size(); ++i) predict_walls(i, to);
+    for (const Index i : near_walls_) predict_walls(i, to);
 }
 
 template <class Real>
@@ -124,7 +128,8 @@ bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     const Vec3 a = acceleration_of(state_, body);
     if (!stays_in_world(state_, body, a, to - now)) return false;
     const Motion<Real>& m = state_.bodies.motion[body];
-    neighbours_.update(body, swept_box(ticks_, m, a, now, to), swept_box(ticks_, m, a, now, to, slack_));
+    if (neighbours_.covers(body, swept_box(ticks_, m, a, now, to))) return true;
+    neighbours_.cover_anew(body, swept_box(ticks_, m, a, now, to, slack_));
     return true;
 }
 

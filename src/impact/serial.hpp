@@ -52,6 +52,7 @@ private:
     double slack_ = 0; ///< m, room in the covers for what impacts do
     EventQueue<Real> queue_;
     std::vector<SweptBox> covers_;
+    std::vector<Index> near_walls_; ///< bodies that may meet a wall in the window
     std::uint64_t predictions_ = 0;
     PhaseTimes seconds_{};
 };

@@ -53,7 +53,6 @@ void Cells::build(std::vector<SweptBox>& boxes, const Axes& axes) {
     choose_levels(boxes, axes);
     sort_into_cells(boxes);
     late_.clear();
-    late_head_.assign(start_.size() - 1, nothing);
 }
 
 double Cells::first_edge(std::size_t bodies) const {
@@ -134,23 +133,23 @@ std::uint32_t Cells::home_cell(const Level& level, const SweptBox& box) {
 
 void Cells::sort_into_cells(std::vector<SweptBox>& boxes) {
     const std::size_t cell_count = levels_.back().first_cell + 1;
-    start_.assign(cell_count + 1, 0);
+    cells_.assign(cell_count + 1, Cell{});
     for (SweptBox& box : boxes) {
         // Until now the tag named the level only.
         box.set_cell(home_cell(levels_[box.cell()], box));
-        ++start_[box.cell() + 1];
+        ++cells_[box.cell() + 1].start;
     }
-    for (std::size_t c = 0; c < cell_count; ++c) start_[c + 1] += start_[c];
+    for (std::size_t c = 0; c < cell_count; ++c) cells_[c + 1].start += cells_[c].start;
     sorted_.resize(boxes.size());
     place_.resize(boxes.size());
     for (Index i = 0; i < boxes.size(); ++i) {
-        const std::uint32_t place = start_[boxes[i].cell()]++;
+        const std::uint32_t place = cells_[boxes[i].cell()].start++;
         boxes[i].set_body(i);
         sorted_[place] = boxes[i];
         place_[i] = place;
     }
-    for (std::size_t c = cell_count; c > 0; --c) start_[c] = start_[c - 1];
-    start_[0] = 0;
+    for (std::size_t c = cell_count; c > 0; --c) cells_[c].start = cells_[c - 1].start;
+    cells_[0].start = 0;
 }
 
 bool Cells::stays_findable(const Level& level, std::uint32_t cell, const SweptBox& box) {
@@ -188,11 +187,11 @@ void Cells::update(Index body, const SweptBox& box) {
     Level& level = levels_[level_of(box)];
     ++level.late;
     const std::uint32_t cell = home_cell(level, box);
-    late_.push_back({box, late_head_[cell]});
+    late_.push_back({box, cells_[cell].late});
     late_.back().box.set_body(body);
     late_.back().box.set_cell(cell);
-    late_head_[cell] = static_cast<std::uint32_t>(late_.size() - 1);
-    place_[body] = late_bit | late_head_[cell];
+    cells_[cell].late = static_cast<std::uint32_t>(late_.size() - 1);
+    place_[body] = late_bit | cells_[cell].late;
 }
 
 void Cells::find_pairs(PairList& pairs) const {
@@ -226,13 +225,13 @@ Cells::Runs Cells::runs_after(std::uint32_t row, std::uint32_t x, std::uint32_t 
     const std::uint32_t low = x == 0 ? 0 : x - 1;
     const std::uint32_t high = x + 1 == nx ? nx : x + 2;
     Runs runs;
-    runs.add(start_[row + x + 1], start_[row + high]);
-    for (const std::uint32_t other : rows) runs.add(start_[other + low], start_[other + high]);
+    runs.add(cells_[row + x + 1].start, cells_[row + high].start);
+    for (const std::uint32_t other : rows) runs.add(cells_[other + low].start, cells_[other + high].start);
     if (nx == 1 || (x != 0 && x + 1 != nx)) return runs;
     // The ends of a row are neighbours too.
     const std::uint32_t across = x == 0 ? nx - 1 : 0;
-    if (x != 0) runs.add(start_[row], start_[row + 1]);
-    for (const std::uint32_t other : rows) runs.add(start_[other + across], start_[other + across + 1]);
+    if (x != 0) runs.add(cells_[row].start, cells_[row + 1].start);
+    for (const std::uint32_t other : rows) runs.add(cells_[other + across].start, cells_[other + across + 1].start);
     return runs;
 }
 
@@ -242,10 +241,11 @@ void Cells::pairs_of_cell(Run cell, const Runs& others, PairList& pairs) const {
     const SweptBox* const boxes = sorted_.data();
     for (std::uint32_t i = cell.from; i < cell.to; ++i) {
         const MeetingTest meets(boxes[i]);
-        const Index body = boxes[i].body();
+        // Nothing is outdated yet: the tags are the bodies.
+        const Index body = boxes[i].lo[SweptBox::tag];
         const auto scan = [&](std::uint32_t from, std::uint32_t to) {
             for (std::uint32_t j = from; j < to; ++j) {
-                *out = {body, boxes[j].body()};
+                *out = {body, boxes[j].lo[SweptBox::tag]};
                 out += meets(boxes[j]) ? 1 : 0;
             }
         };
@@ -261,10 +261,10 @@ void Cells::pairs_inside(const Level& level, PairList& pairs) const {
     for (std::uint32_t z = 0; z < nz; ++z) {
         for (std::uint32_t y = 0; y < ny; ++y) {
             const std::uint32_t row = level.cell_at(0, y, z);
-            if (start_[row] == start_[row + nx]) continue;
+            if (cells_[row].start == cells_[row + nx].start) continue;
             const std::size_t other_count = rows_after(level, y, z, others);
             for (std::uint32_t x = 0; x < nx; ++x) {
-                const Run cell{start_[row + x], start_[row + x + 1]};
+                const Run cell{cells_[row + x].start, cells_[row + x + 1].start};
                 if (cell.from == cell.to) continue;
                 pairs_of_cell(cell, runs_after(row, x, nx, {others.data(), other_count}), pairs);
             }
@@ -283,7 +283,7 @@ void Cells::pairs_across(const Level& fine, const Level& coarse, PairList& pairs
     const auto [begin, end] = sorted_range(asking);
     for (std::uint32_t k = begin; k < end; ++k) {
         const SweptBox& box = sorted_[k];
-        for_each_sorted(asked, box, [&](Index other) {
+        for_each_in(asked, box, [&](Index other) {
             Pair* const out = pairs.room(1);
             *out = {box.body(), other};
             pairs.take(out + 1);

@@ -157,6 +157,11 @@ private:
         [[nodiscard]] bool is_last() const { return edge[0] == 0xffffffffU; }
     };
 
+    struct Cell {
+        std::uint32_t start = 0;      ///< of its boxes in sorted_, which end where the next cell's start
+        std::uint32_t late = nothing; ///< head of the list of its late boxes
+    };
+
     /// `count` cells from `first` on, modulo `cells`.
     struct Span {
         std::uint32_t first = 0;
@@ -184,7 +189,7 @@ private:
     void sort_into_cells(std::vector<SweptBox>& boxes);
     [[nodiscard]] static bool stays_findable(const Level& level, std::uint32_t cell, const SweptBox& box);
 
-    /// Runs of boxes in sorted_.
+    /// From one place to before another.
     struct Run {
         std::uint32_t from = 0;
         std::uint32_t to = 0;
@@ -211,13 +216,32 @@ private:
     void pairs_inside(const Level& level, PairList& pairs) const;
     void pairs_across(const Level& fine, const Level& coarse, PairList& pairs) const;
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> sorted_range(const Level& level) const {
-        return {start_[level.first_cell], start_[level.first_cell + level.cell_count()]};
+        return {cells_[level.first_cell].start, cells_[level.first_cell + level.cell_count()].start};
     }
 
+    /// Rows of cells that are to be scanned: asking for their memory in turn, all before the first is needed, hides
+    /// most of the wait.
+    struct Rows {
+        static constexpr std::size_t most = 32;
+        std::array<Run, most> runs{};
+        std::size_t count = 0;
+
+        void add(Run row, const Cell* cells) {
+            __builtin_prefetch(cells + row.from);
+            runs[count++] = row;
+        }
+        [[nodiscard]] bool is_full() const { return count + 2 > most; }
+    };
+
     template <class F>
-    void for_each_sorted(const Level& level, const SweptBox& box, F&& f) const;
+    void for_each_in(const Level& level, const SweptBox& box, F&& f) const;
     template <class F>
-    void for_each_late(const Level& level, const SweptBox& box, F&& f) const;
+    void scan_row(const Run& row, const MeetingTest& meets, F& f) const;
+    void prefetch_boxes(const Run& row) const {
+        const std::uint32_t first = cells_[row.from].start;
+        __builtin_prefetch(&sorted_[first]);
+        __builtin_prefetch(&sorted_[first] + 2);
+    }
 
     struct Late {
         SweptBox box{};
@@ -226,44 +250,42 @@ private:
 
     std::vector<Level> levels_;
     std::vector<SweptBox> sorted_;
-    std::vector<std::uint32_t> start_;     ///< first of each cell in sorted_, and the end
-    std::vector<std::uint32_t> late_head_; ///< per cell: list of late boxes
+    std::vector<Cell> cells_;              ///< and one more, which is the end
     std::vector<Late> late_;
     std::vector<std::uint32_t> place_;     ///< per body: where in sorted_, or late_bit | where in late_
     std::vector<std::uint32_t> histogram_; ///< of the logarithm of box lengths
 };
 
 template <class F>
-void Cells::for_each_sorted(const Level& level, const SweptBox& box, F&& f) const {
+void Cells::for_each_in(const Level& level, const SweptBox& box, F&& f) const {
     const auto [xs, ys, zs] = reach_of(level, box);
     const MeetingTest meets(box);
-    const auto scan = [&](std::uint32_t first_cell, std::uint32_t end_cell) {
-        for (std::uint32_t k = start_[first_cell]; k < start_[end_cell]; ++k) {
-            if (meets(sorted_[k]) && !sorted_[k].outdated()) f(sorted_[k].body());
-        }
+    Rows rows;
+    const auto scan_all = [&] {
+        for (std::size_t k = 0; k < rows.count; ++k) prefetch_boxes(rows.runs[k]);
+        for (std::size_t k = 0; k < rows.count; ++k) scan_row(rows.runs[k], meets, f);
+        rows.count = 0;
     };
+    const std::uint32_t end = xs.first + xs.count;
     for (std::uint32_t j = 0; j < zs.count; ++j) {
         for (std::uint32_t i = 0; i < ys.count; ++i) {
             const std::uint32_t row = level.cell_at(0, ys.at(i), zs.at(j));
-            const std::uint32_t end = xs.first + xs.count;
-            scan(row + xs.first, row + std::min(end, xs.cells));
-            if (end > xs.cells) scan(row, row + (end - xs.cells));
+            rows.add({row + xs.first, row + std::min(end, xs.cells)}, cells_.data());
+            if (end > xs.cells) rows.add({row, row + (end - xs.cells)}, cells_.data());
+            if (rows.is_full()) scan_all();
         }
     }
+    scan_all();
 }
 
 template <class F>
-void Cells::for_each_late(const Level& level, const SweptBox& box, F&& f) const {
-    const auto [xs, ys, zs] = reach_of(level, box);
-    const MeetingTest meets(box);
-    for (std::uint32_t j = 0; j < zs.count; ++j) {
-        for (std::uint32_t i = 0; i < ys.count; ++i) {
-            for (std::uint32_t h = 0; h < xs.count; ++h) {
-                std::uint32_t k = late_head_[level.cell_at(xs.at(h), ys.at(i), zs.at(j))];
-                for (; k != nothing; k = late_[k].next) {
-                    if (!late_[k].box.outdated() && meets(late_[k].box)) f(late_[k].box.body());
-                }
-            }
+void Cells::scan_row(const Run& row, const MeetingTest& meets, F& f) const {
+    for (std::uint32_t k = cells_[row.from].start; k < cells_[row.to].start; ++k) {
+        if (meets(sorted_[k]) && !sorted_[k].outdated()) f(sorted_[k].body());
+    }
+    for (std::uint32_t c = row.from; c < row.to; ++c) {
+        for (std::uint32_t k = cells_[c].late; k != nothing; k = late_[k].next) {
+            if (!late_[k].box.outdated() && meets(late_[k].box)) f(late_[k].box.body());
         }
     }
 }
@@ -271,8 +293,7 @@ void Cells::for_each_late(const Level& level, const SweptBox& box, F&& f) const 
 template <class F>
 void Cells::for_each_meeting(const SweptBox& box, F&& f) const {
     for (const Level& level : levels_) {
-        if (level.population > 0) for_each_sorted(level, box, f);
-        if (level.late > 0) for_each_late(level, box, f);
+        if (level.population + level.late > 0) for_each_in(level, box, f);
     }
 }
 

@@ -51,20 +51,19 @@ struct Resolution {
     double per_metre = 0; ///< its exact inverse
 };
 
-/// Rounds to the nearest integer, ties to even: symmetric, so that mirrored worlds keep mirrored bits.
-/// Domain: |value| < 2^62, default rounding mode.
-inline std::int64_t round_to_units(double value) {
-    // Adding 1.5 * 2^52 leaves no room for a fraction: the addition itself rounds. Larger values than 2^51 would
-    // need the library's slower function.
+/// Rounds to the nearest integers, ties to even: symmetric, so that mirrored worlds keep mirrored bits.
+/// Domain: |value| < 2^63 units, default rounding mode.
+inline Int3 round_to_units(const Vec3& metres, const Resolution& resolution) {
+    const Vec3 units = metres * resolution.per_metre;
+    // Adding 1.5 * 2^52 leaves no room for a fraction: the addition itself rounds. Beyond 2^51 the library has to.
     constexpr double shifter = 6755399441055744.0;
     constexpr double shifter_limit = 2251799813685248.0;
-    if (std::abs(value) < shifter_limit) return static_cast<std::int64_t>((value + shifter) - shifter);
-    return static_cast<std::int64_t>(std::rint(value));
-}
-
-inline Int3 round_to_units(const Vec3& metres, const Resolution& resolution) {
-    return {round_to_units(metres.x * resolution.per_metre), round_to_units(metres.y * resolution.per_metre),
-            round_to_units(metres.z * resolution.per_metre)};
+    if (std::abs(units.x) + std::abs(units.y) + std::abs(units.z) < shifter_limit) {
+        const auto quick = [](double value) { return static_cast<std::int64_t>((value + shifter) - shifter); };
+        return {quick(units.x), quick(units.y), quick(units.z)};
+    }
+    const auto slow = [](double value) { return static_cast<std::int64_t>(std::rint(value)); };
+    return {slow(units.x), slow(units.y), slow(units.z)};
 }
 
 /// Units to metres; exact as long as the coordinates stay below 2^53 units.

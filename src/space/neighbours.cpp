@@ -45,8 +45,9 @@ void Neighbours::link(Index body, Index other) {
     newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
 }
 
-void Neighbours::update(Index body, const SweptBox& box, const SweptBox& cover) {
-    if (holds(cells_.box_of(body), box)) return;
+bool Neighbours::covers(Index body, const SweptBox& box) const { return holds(cells_.box_of(body), box); }
+
+void Neighbours::cover_anew(Index body, const SweptBox& cover) {
     cells_.update(body, cover);
     cells_.for_each_meeting(cover, [&](Index other) {
         if (other == body) return;

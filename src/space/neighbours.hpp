@@ -21,8 +21,10 @@ public:
     /// Pairs of neighbours as of build(), once or more often.
     [[nodiscard]] std::span<const Pair> pairs() const { return pairs_.pairs(); }
 
-    /// A body moves within `box` from now on. If that is not in its cover, `cover` becomes its cover.
-    void update(Index body, const SweptBox& box, const SweptBox& cover);
+    /// Whether `box` lies in the cover of a body.
+    [[nodiscard]] bool covers(Index body, const SweptBox& box) const;
+    /// Replaces the cover of a body and finds its neighbours again.
+    void cover_anew(Index body, const SweptBox& cover);
 
     /// Calls f(other) for every neighbour, once or more often.
     template <class F>
@@ -31,7 +33,7 @@ public:
         for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) f(links_[k].other);
     }
 
-    /// Asks for the memory that update() and for_each() will need.
+    /// Asks for the memory that covers() and for_each() will need.
     void prefetch(Index body) const {
         __builtin_prefetch(&first_[body]);
         __builtin_prefetch(&newest_link_[body]);

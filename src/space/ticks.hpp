@@ -32,9 +32,17 @@ public:
     /// The box of a body at `x` (units) that moves from `low` to `high` (m, relative to x) and has a radius (m).
     [[nodiscard]] SweptBox box(const Int3& x, const Vec3& low, const Vec3& high, double radius) const {
         SweptBox box;
-        set_axis<0>(box, x.x, low.x - radius, high.x + radius);
-        set_axis<1>(box, x.y, low.y - radius, high.y + radius);
-        set_axis<2>(box, x.z, low.z - radius, high.z + radius);
+        const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
+        const double reach = farther(low.x, high.x) + farther(low.y, high.y) + farther(low.z, high.z) + radius;
+        if (reach < surely_short_) {
+            set_axis(axes_[0], x.x, low.x - radius, high.x + radius, box.lo[0], box.length[0]);
+            set_axis(axes_[1], x.y, low.y - radius, high.y + radius, box.lo[1], box.length[1]);
+            set_axis(axes_[2], x.z, low.z - radius, high.z + radius, box.lo[2], box.length[2]);
+        } else {
+            set_long_axis(axes_[0], x.x, low.x - radius, high.x + radius, box.lo[0], box.length[0]);
+            set_long_axis(axes_[1], x.y, low.y - radius, high.y + radius, box.lo[1], box.length[1]);
+            set_long_axis(axes_[2], x.z, low.z - radius, high.z + radius, box.lo[2], box.length[2]);
+        }
         return box;
     }
 
@@ -49,22 +57,25 @@ private:
         double per_metre = 0;     ///< ticks per m
     };
 
-    template <std::size_t K>
-    void set_axis(SweptBox& box, std::int64_t x, double low, double high) const {
-        const Axis& axis = axes_[K];
+    static void set_axis(const Axis& axis, std::int64_t x, double low, double high, Tick& lo, Tick& length) {
         // A tick of room on each side for the truncations, and one for the rounding of x.
+        const std::int64_t from = static_cast<std::int64_t>(low * axis.per_metre) - 2;
+        const std::int64_t to = static_cast<std::int64_t>(high * axis.per_metre) + 2;
+        lo = base(axis, x) + static_cast<Tick>(from);
+        length = static_cast<Tick>(to - from);
+    }
+
+    /// A box that may be longer than the torus: then it is all of it.
+    static void set_long_axis(const Axis& axis, std::int64_t x, double low, double high, Tick& lo, Tick& length) {
         constexpr double most = 4.0e9;
+        constexpr double far = 1.0e18;
         const double first = low * axis.per_metre;
         const double last = high * axis.per_metre;
-        constexpr double far = 1.0e18;
-        if (!(last - first < most && first > -far && last < far)) {
-            box.length[K] = 0xffffffffU;
-            return;
+        if (last - first < most && first > -far && last < far) {
+            set_axis(axis, x, low, high, lo, length);
+        } else {
+            length = 0xffffffffU;
         }
-        const std::int64_t from = static_cast<std::int64_t>(first) - 2;
-        const std::int64_t to = static_cast<std::int64_t>(last) + 2;
-        box.lo[K] = base(axis, x) + static_cast<Tick>(from);
-        box.length[K] = static_cast<Tick>(to - from);
     }
 
     static Tick base(const Axis& axis, std::int64_t x) {
@@ -73,6 +84,7 @@ private:
     }
 
     std::array<Axis, 3> axes_{};
+    double surely_short_ = 0; ///< m, a reach whose box is far shorter than the torus
 };
 
 /// Widens [low, high] by the apex of a parabola, if it has one between t0 and t1.
@@ -93,11 +105,12 @@ SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& a
     const Vec3 v = velocity_of(motion);
     const double t0 = from - motion.t;
     const double t1 = to - motion.t;
-    const Vec3 a = displacement(v, acceleration, t0);
-    const Vec3 b = displacement(v, acceleration, t1);
+    const bool curved = acceleration != Vec3{};
+    const Vec3 a = curved ? displacement(v, acceleration, t0) : v * t0;
+    const Vec3 b = curved ? displacement(v, acceleration, t1) : v * t1;
     Vec3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
     Vec3 high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-    if (acceleration != Vec3{}) {
+    if (curved) {
         include_apex(v.x, acceleration.x, t0, t1, low.x, high.x);
         include_apex(v.y, acceleration.y, t0, t1, low.y, high.y);
         include_apex(v.z, acceleration.z, t0, t1, low.z, high.z);
