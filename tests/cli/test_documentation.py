@@ -1,0 +1,58 @@
+"""The commands of docs/command_line.md do what it says, and its tables name what there is."""
+
+import csv
+import json
+import re
+import shlex
+import unittest
+
+from carom_cli import ROOT, CliTest
+
+PAGE = (ROOT / "docs/command_line.md").read_text(encoding="utf-8")
+
+
+def commands():
+    """The lines of code blocks that begin with `carom`, and the exit codes that stand behind them."""
+    for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL):
+        for line in block.splitlines():
+            if line.startswith("carom "):
+                code = re.search(r"# exit code (\d)", line)
+                yield shlex.split(line.partition("#")[0])[1:], int(code.group(1)) if code else 0
+
+
+def keys_of_table(heading):
+    """What stands in the first column of the table below a heading."""
+    section = PAGE.partition(f"## {heading}\n")[2].partition("\n## ")[0]
+    return [key for row in re.findall(r"^\| (`.*?) \|", section, re.MULTILINE) for key in re.findall(r"`(.*?)`", row)]
+
+
+class Documentation(CliTest):
+    def test_commands(self):
+        (self.folder / "scenes").symlink_to(ROOT / "scenes")
+        shown = list(commands())
+        self.assertGreater(len(shown), 8)
+        for arguments, code in shown:
+            self.carom(*arguments, expect=code)
+
+    def test_every_option_is_described(self):
+        for command in ("run", "bench", "info", "diff"):
+            for option in set(re.findall(r"--[a-z-]+", self.carom(command, "--help")[0])) - {"--help"}:
+                self.assertTrue(f"`{option}" in PAGE, f"{command} {option}")
+
+    def test_json_keys(self):
+        run = self.json("run", ROOT / "scenes/two_bodies.toml", "--out", "out")
+        bench = self.json("bench", "gas", "--bodies", 10, "--steps", 1, "--warmup", 0)
+        self.assertEqual(set(keys_of_table("Figures")), set(run) | set(bench))
+        self.assertEqual(set(keys_of_table("Facts")), set(self.json("info")))
+        self.assertEqual(json.loads(self.read("out", "summary.json")), run)
+
+    def test_columns(self):
+        self.write("log.toml", (ROOT / "scenes/two_bodies.toml").read_text() + "\n[output]\nrecord_impacts = true\n")
+        self.carom("run", "log.toml", "--out", "out")
+        for name, heading in (("timeline.csv", "Timeline"), ("impacts.csv", "Impacts")):
+            with open(self.folder / "out" / name, newline="", encoding="ascii") as file:
+                self.assertEqual(keys_of_table(heading), next(csv.reader(file)))
+
+
+if __name__ == "__main__":
+    unittest.main()
