@@ -102,7 +102,8 @@ def check_tidy():
     commands = json.loads((ROOT / "build/release/compile_commands.json").read_text())
     known = set(files("*.cpp"))
     entries = [entry for entry in commands if os.path.relpath(entry["file"], ROOT) in known]
-    common = repr(TIDY_ARGUMENTS).encode() + (ROOT / ".clang-tidy").read_bytes() + run(CLANG_TIDY, "--version").stdout.encode()
+    version = run(CLANG_TIDY, "--version").stdout
+    common = f"{version}{TIDY_ARGUMENTS}{(ROOT / '.clang-tidy').read_text()}".encode()
     findings = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for done, found in enumerate(pool.map(lambda entry: tidy(entry, common), entries), 1):

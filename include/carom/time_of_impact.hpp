@@ -26,6 +26,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace carom {
@@ -39,7 +40,7 @@ namespace detail {
 // Tools
 // ---------------------------------------------------------------------------------------------------------------------
 
-constexpr const Vec3& wide(const Vec3& a) { return a; }
+constexpr Vec3 wide(const Vec3& a) { return a; }
 constexpr Vec3 wide(const Vector3<float>& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
@@ -172,7 +173,7 @@ struct RadialRate {
 };
 
 /// Which side of a sphere around the origin a point flies on: the sign that makes the gap grow with the distance.
-enum class Side { outside = 1, inside = -1 };
+enum class Side : std::int8_t { outside, inside };
 
 constexpr double sign_of(Side side) { return side == Side::outside ? 1.0 : -1.0; }
 
@@ -609,7 +610,8 @@ inline Parabola seen_from(const Region& region, const Parabola& path, const Boun
     return {{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}};
 }
 
-/// A face of a box seen by a point inside the box: its outward normal and how far below it the point is.
+/// A face of a box seen by a point inside the box: its outward normal and how far below it the point is. Of faces
+/// equally near the first in the order of FaceImpact counts.
 struct DeepFace {
     Vec3 normal;
     double depth;

@@ -10,15 +10,36 @@ namespace {
 /// 113 (1998), make every impact elastic that follows a contact of less than t_c; the count spares ordinary cascades.
 constexpr std::uint32_t quick_impacts_allowed = 8;
 
-/// Counts an impact of a body at `time`; true if it has had too many in quick succession.
+/// Jam rule: bodies that fill the room between faces or static bodies have impacts without end at one and the same
+/// place. After so many of them they stop. What ends on its own takes fewer: a body that touches a wall and is struck
+/// by one of k times its mass has about 0.8 sqrt(k) impacts with the wall, and a wedge of angle w at most pi / w.
+constexpr std::uint16_t still_bounces_allowed = 64;
+constexpr std::uint16_t still_impacts_allowed = 10000;
+
+/// What a body's impacts in quick succession come to.
+struct Haste {
+    bool collapses = false; ///< too many: the TC rule makes further ones elastic
+    bool jams = false;      ///< too many at one place: the jam rule makes further ones inelastic
+};
+
+/// Counts an impact of a body.
 template <class Real>
-bool collapses(State<Real>& state, Index body, double time) {
-    if (state.bodies.kind[body] == Kind::fixed) return false;
+Haste count_impact(State<Real>& state, Index body, double time, double approach, bool at_support) {
     Flight& flight = state.bodies.trait[body].flight;
-    if (time - flight.last_impact > state.laws.collapse_time) flight.quick_impacts = 0;
-    flight.quick_impacts = std::min(flight.quick_impacts + 1, quick_impacts_allowed + 1);
+    const double duration = time - flight.last_impact;
+    if (duration > state.laws.collapse_time) flight.quick_impacts = 0;
+    const bool still = flight.quick_impacts > 0 && approach * duration <= 2 * state.resolution.metres;
+    const auto counted = [](bool goes_on, std::uint32_t count, std::uint32_t allowed) {
+        return goes_on ? std::min(count + 1, allowed + 1) : 0;
+    };
+    flight.quick_impacts = counted(true, flight.quick_impacts, quick_impacts_allowed);
+    flight.still_impacts =
+        static_cast<std::uint16_t>(counted(still, flight.still_impacts, still_impacts_allowed));
+    flight.still_bounces =
+        static_cast<std::uint16_t>(counted(still && at_support, flight.still_bounces, still_bounces_allowed));
     flight.last_impact = time;
-    return flight.quick_impacts > quick_impacts_allowed;
+    return {.collapses = flight.quick_impacts > quick_impacts_allowed,
+            .jams = flight.still_impacts > still_impacts_allowed || flight.still_bounces > still_bounces_allowed};
 }
 
 /// Brings a body to the time of its event and outdates its other events.
@@ -39,10 +60,13 @@ double mass_of(const State<Real>& state, Index body) {
     return static_cast<double>(state.bodies.trait[body].mass);
 }
 
-void apply_tc_rule(bool collapse, Encounter& encounter, Outcome& outcome) {
-    if (!collapse || encounter.restitution == 1) return;
-    encounter.restitution = 1;
-    ++outcome.tc_conversions;
+void apply_haste(const Haste& haste, Encounter& encounter, Outcome& outcome) {
+    if (haste.jams) {
+        encounter.restitution = 0;
+    } else if (haste.collapses && encounter.restitution != 1) {
+        encounter.restitution = 1;
+        ++outcome.tc_conversions;
+    }
 }
 
 template <class Real>
@@ -74,11 +98,11 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     const bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
         release(state.bodies, body);
-        const bool collapse = collapses(state, body, impact.offset);
+        const Haste haste = count_impact(state, body, impact.offset, approach, true);
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
-            apply_tc_rule(collapse, encounter, outcome);
+            apply_haste(haste, encounter, outcome);
         }
         Vec3 support_velocity{};
         const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
@@ -108,11 +132,12 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Imp
     release(state.bodies, a);
     release(state.bodies, b);
     Encounter encounter = encounter_of(state, a, b);
-    const bool collapse_a = collapses(state, a, impact.offset);
-    const bool collapse_b = collapses(state, b, impact.offset);
-    apply_tc_rule(collapse_a || collapse_b, encounter, outcome);
     Vec3 v_a = meeting.v_a;
     Vec3 v_b = meeting.v_b;
+    const double approach = dot(v_a - v_b, impact.normal);
+    const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
+    const Haste haste_b = count_impact(state, b, impact.offset, approach, false);
+    apply_haste({haste_a.collapses || haste_b.collapses, haste_a.jams || haste_b.jams}, encounter, outcome);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
     set_velocity(state, a, v_a);

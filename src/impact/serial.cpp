@@ -126,10 +126,12 @@ template <class Real>
 bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     if (state_.bodies.kind[body] == Kind::fixed) return true;
     const Vec3 a = acceleration_of(state_, body);
-    if (!stays_in_world(state_, body, a, to - now)) return false;
+    // To the end of the step, not of the window: no result may depend on windows.
+    if (!stays_in_world(state_, body, a, state_.laws.kick_interval - now)) return false;
     const Motion<Real>& m = state_.bodies.motion[body];
     if (neighbours_.covers(body, swept_box(ticks_, m, a, now, to))) return true;
-    neighbours_.cover_anew(body, swept_box(ticks_, m, a, now, to, slack_));
+    neighbours_.cover_anew(body, swept_box(ticks_, m, a, now, to, slack_),
+                           [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
     return true;
 }
 

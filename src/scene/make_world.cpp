@@ -20,7 +20,8 @@ int line_of(const Scene& scene, const std::string& key) {
 /// An option that the world refused, under its name in the file.
 SceneError option_error(const Scene& scene, const Error& error) {
     const std::string& field = error.field();
-    const std::string key = field.compare(0, 6, "region") == 0 ? "region" : "world." + field;
+    if (field.compare(0, 6, "region") == 0) return {scene.file, line_of(scene, "region"), field, reason_of(error)};
+    const std::string key = "world." + field;
     return {scene.file, line_of(scene, key), key, reason_of(error)};
 }
 
@@ -93,6 +94,14 @@ SceneError body_error(const Scene& scene, const Error& error) {
     return {scene.file, source->line, source->key + "." + error.field(), body_reason(scene, error)};
 }
 
+/// An attractor that the world refused, under its entry of the file.
+SceneError attractor_error(const Scene& scene, const Error& error) {
+    if (error.index() >= scene.attractors.size()) return {scene.file, 0, error.field(), reason_of(error)};
+    const std::string member = error.field().substr(error.field().find('.') + 1);
+    return {scene.file, scene.attractors[error.index()].line, fmt::format("attractor[{}].{}", error.index(), member),
+            reason_of(error)};
+}
+
 World made_world(const Scene& scene) {
     try {
         return World(scene.options);
@@ -121,9 +130,7 @@ void set_attractors(World& world, const Scene& scene, const std::vector<BodyId>&
     try {
         world.set_attractors(attractors);
     } catch (const Error& error) {
-        const bool known = error.index() < scene.attractors.size();
-        const std::string key = known ? fmt::format("attractor[{}].{}", error.index(), error.field()) : error.field();
-        throw SceneError(scene.file, known ? scene.attractors[error.index()].line : 0, key, reason_of(error));
+        throw attractor_error(scene, error);
     }
 }
 

@@ -90,7 +90,7 @@ void read_world(TableReader table, Scene& scene) {
         for (std::size_t axis = 0; axis < parts.size(); ++axis) options.origin[axis] = parts[axis].integer();
     }
     table.read("rest_time", options.rest_time, positive);
-    table.read("collapse_time", options.collapse_time, not_negative);
+    table.read("collapse_time", options.collapse_time, positive);
     if (const auto value = table.find("work_cap")) {
         options.work_cap = value->count(0, std::numeric_limits<std::int64_t>::max());
     }

@@ -22,10 +22,12 @@ enum class Kind : std::uint8_t {
     held,   ///< its Hold: it rests against faces or static bodies
 };
 
-/// Counts a body's impacts in quick succession: state of the TC rule.
+/// Counts a body's impacts in quick succession: state of the TC rule and of the jam rule.
 struct Flight {
     double last_impact = 0;          ///< s since the start of the step; means nothing while `quick_impacts` is 0
     std::uint32_t quick_impacts = 0; ///< impacts so far whose flights in between were shorter than collapse_time
+    std::uint16_t still_impacts = 0; ///< the last ones of these, between which nothing moved by more than rounding
+    std::uint16_t still_bounces = 0; ///< the last ones of those, all with faces or static bodies
 };
 
 /// What a held body rests against.
@@ -116,8 +118,8 @@ void remove_body(Bodies<Real>& bodies, Index index) {
         array.pop_back();
     });
     bodies.slots[slot].index = no_index;
-    ++bodies.slots[slot].generation;
-    bodies.free_slots.push_back(slot);
+    // A slot whose generations are used up is given out no more: old ids must stay stale.
+    if (++bodies.slots[slot].generation != 0) bodies.free_slots.push_back(slot);
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by

@@ -16,6 +16,10 @@ void check_surface(const Surface& surface, const std::string& where, std::size_t
 }
 
 bool is_periodic(const Box& box, std::size_t axis) {
+    for (const std::size_t face : {2 * axis, 2 * axis + 1}) {
+        if (box.faces[face].kind <= FaceKind::periodic) continue;
+        throw Error(ErrorCode::out_of_range, "region.faces", "must be reflecting, open or periodic", face);
+    }
     const bool low = box.faces[2 * axis].kind == FaceKind::periodic;
     const bool high = box.faces[2 * axis + 1].kind == FaceKind::periodic;
     if (low != high) {
@@ -94,6 +98,11 @@ void Bounds::add_planes(const std::vector<Plane>& planes, const Resolution& reso
 
 void Bounds::add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin) {
     check_positive(shell.radius, "region.radius");
+    const double half_size = static_cast<double>(world_edge) * resolution.metres;
+    if (!(shell.radius < half_size)) {
+        throw Error(ErrorCode::out_of_range, "region.radius",
+                    "must be less than the " + shown(half_size) + " m of the world, got " + shown(shell.radius));
+    }
     check_surface(shell.surface, "region.surface", Error::no_index);
     shape_ = Shape::shell;
     shell_radius_ = shell.radius;
@@ -118,7 +127,11 @@ Int3 Bounds::wrapped(Int3 x) const {
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t length = period(axis);
         if (length == 0) continue;
-        std::int64_t offset = (component(x, axis) - period_start(axis)) % length;
+        std::int64_t offset = 0;
+        if (__builtin_sub_overflow(component(x, axis), period_start(axis), &offset)) {
+            offset = component(x, axis) % length - period_start(axis) % length;
+        }
+        offset %= length;
         if (offset < 0) offset += length;
         component(x, axis) = period_start(axis) + offset;
     }

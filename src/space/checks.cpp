@@ -1,5 +1,6 @@
 #include "space/checks.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -11,24 +12,26 @@ std::string shown(double value) {
     return std::string(text.data(), end);
 }
 
-double resolution_for(double metres) {
+std::string remedy_for(double metres) {
+    if (!(metres < std::ldexp(static_cast<double>(world_edge), largest_resolution_exponent))) {
+        return "no resolution reaches that far";
+    }
     int exponent = 0;
     std::frexp(metres / static_cast<double>(world_edge), &exponent);
-    return std::ldexp(1.0, exponent);
+    return "set the resolution to " + shown(std::ldexp(1.0, exponent)) + " m or more";
 }
 
 Int3 position_units(const Vec3& metres, const Resolution& resolution, const Int3& origin, const std::string& field,
                     std::size_t index) {
     check_finite(metres, field, index);
     constexpr auto edge = static_cast<double>(world_edge);
-    const Vec3 from_zero = metres * resolution.per_metre + to_metres(origin, {1, 1});
+    const double half_size = edge * resolution.metres;
+    const Vec3 from_zero = metres + to_metres(origin, resolution);
     for (int axis = 0; axis < 3; ++axis) {
-        const double distance = std::abs(component(from_zero, axis));
-        if (distance < edge && std::abs(component(metres, axis)) * resolution.per_metre < edge) continue;
+        const double distance = std::max(std::abs(component(from_zero, axis)), std::abs(component(metres, axis)));
+        if (distance < half_size) continue;
         throw Error(ErrorCode::out_of_world, field,
-                    "outside the world of +-" + shown(edge * resolution.metres) + " m; set the resolution to " +
-                        shown(resolution_for(distance * resolution.metres)) + " m or more",
-                    index);
+                    "outside the world of +-" + shown(half_size) + " m; " + remedy_for(distance), index);
     }
     return round_to_units(metres, resolution) + origin;
 }

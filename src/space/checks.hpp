@@ -46,7 +46,8 @@ inline void check_fraction(double value, const std::string& field, std::size_t i
 Int3 position_units(const Vec3& metres, const Resolution& resolution, const Int3& origin, const std::string& field,
                     std::size_t index = Error::no_index);
 
-/// The smallest power of two, in metres, that represents a distance of `metres` from the zero of the world.
-double resolution_for(double metres);
+/// What to do about a distance of `metres` from the zero of the world that its resolution cannot represent: the
+/// resolution to set, if there is one.
+std::string remedy_for(double metres);
 
 } // namespace carom::core

@@ -1,5 +1,7 @@
 #include "space/neighbours.hpp"
 
+#include <algorithm>
+
 namespace carom::core {
 
 namespace {
@@ -32,6 +34,7 @@ void Neighbours::make_lists(std::size_t bodies) {
     }
     std::uint32_t end = 0;
     for (std::uint32_t& first : first_) first = end += first;
+    asks_list_.assign(bodies, 1);
     list_.resize(2 * pairs().size());
     // From the ends down: afterwards each entry is where its list begins.
     for (const auto& [a, b] : pairs()) {
@@ -45,15 +48,16 @@ void Neighbours::link(Index body, Index other) {
     newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
 }
 
-bool Neighbours::covers(Index body, const SweptBox& box) const { return holds(cells_.box_of(body), box); }
-
-void Neighbours::cover_anew(Index body, const SweptBox& cover) {
-    cells_.update(body, cover);
-    cells_.for_each_meeting(cover, [&](Index other) {
-        if (other == body) return;
-        link(body, other);
-        link(other, body);
-    });
+bool Neighbours::knows(Index body, Index other) const {
+    for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) {
+        if (links_[k].other == other) return true;
+    }
+    if (asks_list_[body] == 0) return false;
+    const auto first = list_.begin() + first_[other];
+    const auto end = list_.begin() + first_[other + 1];
+    return std::find(first, end, body) != end;
 }
+
+bool Neighbours::covers(Index body, const SweptBox& box) const { return holds(cells_.box_of(body), box); }
 
 } // namespace carom::core

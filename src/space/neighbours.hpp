@@ -23,13 +23,24 @@ public:
 
     /// Whether `box` lies in the cover of a body.
     [[nodiscard]] bool covers(Index body, const SweptBox& box) const;
-    /// Replaces the cover of a body and finds its neighbours again.
-    void cover_anew(Index body, const SweptBox& cover);
+    /// Replaces the cover of a body and finds its neighbours again. Those of which `looks_up(other)` is false will
+    /// never be asked for their own neighbours.
+    template <class Predicate>
+    void cover_anew(Index body, const SweptBox& cover, Predicate&& looks_up) {
+        cells_.update(body, cover);
+        asks_list_[body] = 0;
+        newest_link_[body] = nothing;
+        cells_.for_each_meeting(cover, [&](Index other) {
+            if (other == body) return;
+            link(body, other);
+            if (looks_up(other) && !knows(other, body)) link(other, body);
+        });
+    }
 
     /// Calls f(other) for every neighbour, once or more often.
     template <class F>
     void for_each(Index body, F&& f) const {
-        for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) f(list_[k]);
+        for (std::uint32_t k = first_[body]; asks_list_[body] != 0 && k < first_[body + 1]; ++k) f(list_[k]);
         for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) f(links_[k].other);
     }
 
@@ -52,10 +63,13 @@ private:
 
     void make_lists(std::size_t bodies);
     void link(Index body, Index other);
+    /// Whether for_each(body) already gives `other`, whose own list of build() is shorter to search than that of a giant.
+    [[nodiscard]] bool knows(Index body, Index other) const;
 
     Cells cells_;
     PairList pairs_;
     std::vector<std::uint32_t> first_;       ///< per body: where its neighbours begin in list_; and the end
+    std::vector<std::uint8_t> asks_list_;    ///< per body: false once its cover was replaced
     std::vector<Index> list_;
     std::vector<std::uint32_t> newest_link_; ///< per body: head of its later neighbours
     std::vector<Link> links_;

@@ -8,7 +8,7 @@ SweptBox Placement<Real>::box_of(Index i) const {
 }
 
 template <class Real>
-void Placement<Real>::rebuild() {
+void Placement<Real>::build() {
     const Census census = take_census(state_.bodies);
     ticks_ = Ticks(state_.bounds, state_.resolution, std::max(2 * census.mean_radius, state_.resolution.metres));
     std::vector<SweptBox> boxes(state_.bodies.size());
@@ -18,18 +18,20 @@ void Placement<Real>::rebuild() {
 }
 
 template <class Real>
-void Placement<Real>::put(Index i) {
+void Placement<Real>::note(Index first, Index last) {
+    if (!valid_) return;
     // Bodies that came late are found more slowly: build anew when they are as many as the sorted ones.
     constexpr std::size_t few = 64;
-    if (!valid_ || 2 * cells_.late() > cells_.size() + few || i > cells_.size() + few) {
-        rebuild();
+    if (2 * (cells_.late() + (last - first)) > cells_.size() + few) {
+        forget();
         return;
     }
-    for (auto k = static_cast<Index>(std::min<std::size_t>(i, cells_.size())); k <= i; ++k) cells_.update(k, box_of(k));
+    for (Index i = first; i <= last; ++i) cells_.update(i, box_of(i));
 }
 
 template <class Real>
 std::optional<Index> Placement<Real>::overlapping(Index i, Index end) {
+    if (!valid_) build();
     const Bodies<Real>& bodies = state_.bodies;
     const auto radius = static_cast<double>(bodies.motion[i].radius);
     std::optional<Index> first;

@@ -16,7 +16,7 @@ class Placement {
 public:
     explicit Placement(const State<Real>& state) : state_(state) {}
 
-    /// To be called when bodies have moved, or changed places in memory.
+    /// To be called when all bodies may have moved, or changed places in memory.
     void forget() {
         cells_ = {};
         valid_ = false;
@@ -26,11 +26,12 @@ public:
     /// memory. Bodies from `end` on do not count. Static bodies may overlap each other.
     std::optional<Index> overlapping(Index i, Index end);
 
-    /// Takes body `i` in after it was moved, or all bodies up to it if it is new.
-    void put(Index i);
+    /// To be called when the bodies from `first` to `last` are new, have moved or have come to these places in memory.
+    /// Bodies behind the last one, removed or refused, need no word: they are never looked at.
+    void note(Index first, Index last);
 
 private:
-    void rebuild();
+    void build();
     [[nodiscard]] SweptBox box_of(Index i) const;
 
     const State<Real>& state_;

@@ -19,7 +19,8 @@ struct Sum {
         carry += std::abs(main) >= std::abs(value) ? (main - sum) + value : (value - sum) + main;
         main = sum;
     }
-    [[nodiscard]] double value() const { return main + carry; }
+    /// The sum; once it has overflowed, infinite.
+    [[nodiscard]] double value() const { return std::isfinite(main) ? main + carry : main; }
 };
 
 struct VectorSum {

@@ -67,6 +67,9 @@ private:
     template <Plain T>
     void take(T& value) {
         if (bytes_.size() < sizeof(T)) throw Error(ErrorCode::bad_data, "snapshot", "ends too early");
+        if constexpr (std::is_same_v<T, bool>) {
+            if (bytes_.front() > std::byte{1}) throw Error(ErrorCode::bad_data, "snapshot", "contradicts itself");
+        }
         std::memcpy(&value, bytes_.data(), sizeof(T));
         bytes_ = bytes_.subspan(sizeof(T));
     }
@@ -119,9 +122,12 @@ void transfer(Archive& archive, std::vector<T>& values) {
     archive(count);
     if constexpr (Archive::reading) {
         if (count > archive.left()) throw Error(ErrorCode::bad_data, "snapshot", "ends too early");
-        values.assign(static_cast<std::size_t>(count), T{});
+        values.clear();
+        values.reserve(static_cast<std::size_t>(count));
+        for (std::uint64_t k = 0; k < count; ++k) archive(values.emplace_back());
+    } else {
+        for (T& value : values) archive(value);
     }
-    for (T& value : values) archive(value);
 }
 
 } // namespace carom::core

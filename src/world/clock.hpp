@@ -4,12 +4,16 @@
 
 #include "space/sum.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 namespace carom::core {
 
 class Clock {
 public:
+    /// s, a step's limit: far from where the products below overflow.
+    static constexpr double longest_interval = 1e100;
+
     /// A step of `dt` seconds was done.
     void advance(double dt) {
         if (dt != interval_) {
@@ -22,6 +26,11 @@ public:
     }
     [[nodiscard]] double seconds() const { return product_added(past_, interval_, repeats_).value(); }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
+
+    /// False for what no sequence of steps leads to.
+    [[nodiscard]] bool is_sound() const {
+        return interval_ >= 0 && interval_ <= longest_interval && std::isfinite(seconds()) && seconds() >= 0;
+    }
 
     template <class Archive>
     void transfer(Archive& archive) {

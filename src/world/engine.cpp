@@ -16,10 +16,21 @@ double checked_resolution(const WorldOptions& options) {
     if (std::frexp(options.resolution, &exponent) != 0.5) {
         throw Error(ErrorCode::out_of_range, "resolution", "must be a power of two, got " + shown(options.resolution));
     }
-    if (exponent < -200 || exponent > 200) {
+    // The resolution is 2^(exponent - 1).
+    if (std::abs(exponent - 1) > largest_resolution_exponent) {
         throw Error(ErrorCode::out_of_range, "resolution", "must lie in [2^-200, 2^200] m");
     }
     return options.resolution;
+}
+
+/// A whole number of metres, other than 0 and inside the world, in units.
+std::int64_t whole_units(std::int64_t metres, const Resolution& resolution, std::size_t axis) {
+    if (resolution.metres <= 1) return metres * static_cast<std::int64_t>(resolution.per_metre);
+    constexpr double beyond_integers = 0x1p63;
+    if (resolution.metres >= beyond_integers || metres % static_cast<std::int64_t>(resolution.metres) != 0) {
+        throw Error(ErrorCode::out_of_range, "origin", "must be a multiple of the resolution", axis);
+    }
+    return metres / static_cast<std::int64_t>(resolution.metres);
 }
 
 void check_rules(const std::vector<MaterialRule>& rules) {
@@ -27,6 +38,12 @@ void check_rules(const std::vector<MaterialRule>& rules) {
         check_fraction(rules[i].restitution, "material_rules.restitution", i);
         check_not_negative(rules[i].friction, "material_rules.friction", i);
     }
+}
+
+void check_min_windows(std::uint32_t min_windows) {
+    if (min_windows >= 1 && min_windows <= most_windows) return;
+    throw Error(ErrorCode::out_of_range, "min_windows",
+                "must lie in [1, " + std::to_string(most_windows) + "], got " + std::to_string(min_windows));
 }
 
 } // namespace
@@ -38,21 +55,12 @@ void check_drag(const Drag& drag) {
 
 Int3 origin_units(const std::array<std::int64_t, 3>& origin, const Resolution& resolution) {
     Int3 units;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int64_t metres = origin[static_cast<std::size_t>(axis)];
-        const double scaled = static_cast<double>(metres) * resolution.per_metre;
-        if (!(std::abs(scaled) < static_cast<double>(world_edge))) {
-            throw Error(ErrorCode::out_of_world, "origin", "outside the world", static_cast<std::size_t>(axis));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double distance = std::abs(static_cast<double>(origin[axis]));
+        if (!(distance * resolution.per_metre < static_cast<double>(world_edge))) {
+            throw Error(ErrorCode::out_of_world, "origin", "outside the world; " + remedy_for(distance), axis);
         }
-        int exponent = 0;
-        std::frexp(resolution.per_metre, &exponent);
-        // per_metre = 2^(exponent - 1)
-        const auto shift = static_cast<unsigned>(std::abs(exponent - 1));
-        component(units, axis) = exponent >= 1 ? metres << shift : metres >> shift;
-        if (exponent < 1 && component(units, axis) << shift != metres) {
-            throw Error(ErrorCode::out_of_range, "origin", "must be a multiple of the resolution",
-                        static_cast<std::size_t>(axis));
-        }
+        if (origin[axis] != 0) component(units, static_cast<int>(axis)) = whole_units(origin[axis], resolution, axis);
     }
     return units;
 }
@@ -71,7 +79,7 @@ Setting checked_setting(WorldOptions options) {
     check_positive(options.rest_time, "rest_time");
     check_positive(options.collapse_time, "collapse_time");
     check_not_negative(options.least_recorded_impulse, "least_recorded_impulse");
-    if (options.min_windows < 1) throw Error(ErrorCode::out_of_range, "min_windows", "must be >= 1, got 0");
+    check_min_windows(options.min_windows);
     setting.options = std::move(options);
     return setting;
 }
@@ -81,7 +89,7 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     : setting_(std::move(setting)), world_tag_(world_tag), solver_(state_), placement_(state_) {
     const WorldOptions& options = setting_.options;
     state_.resolution = setting_.resolution;
-    state_.bounds = Bounds(options.region, setting_.resolution, setting_.origin);
+    state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
     state_.laws.gravity = options.gravity;
     state_.laws.rest_time = options.rest_time;
     state_.laws.collapse_time = options.collapse_time;
@@ -94,8 +102,9 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
 template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
-      clock_(other.clock_), ledger_(other.ledger_), report_(other.report_), outcome_(other.outcome_),
-      impacts_(other.impacts_), solver_(state_), placement_(state_), last_step_(other.last_step_),
+      attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_), outcome_(other.outcome_),
+      impacts_(other.impacts_), solver_(state_), placement_(state_), last_start_(other.last_start_),
+      last_step_(other.last_step_),
       steps_since_order_(other.steps_since_order_) {}
 
 template <class Real>
@@ -112,26 +121,29 @@ void Engine<Real>::set_drag(const Drag& drag) {
 
 template <class Real>
 void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
+    std::vector<Int3> places(attractors.size());
     for (std::size_t i = 0; i < attractors.size(); ++i) {
         const Attractor& attractor = attractors[i];
         check_finite(attractor.strength, "attractor.strength", i);
         check_not_negative(attractor.softening, "attractor.softening", i);
         if (!attractor.body.is_set()) {
-            position_units(attractor.position, setting_.resolution, setting_.origin, "attractor.position", i);
+            places[i] = position_units(attractor.position, setting_.resolution, setting_.origin, "attractor.position", i);
         } else if (!contains(attractor.body)) {
             throw Error(ErrorCode::unknown_body, "attractor.body", "there is no such body in this world", i);
         }
     }
     attractors_.assign(attractors.begin(), attractors.end());
+    attractor_places_ = std::move(places);
 }
 
 template <class Real>
 void Engine<Real>::set_origin(const std::array<std::int64_t, 3>& origin) {
     const Int3 units = origin_units(origin, setting_.resolution);
-    const Vec3 shift = to_metres(setting_.origin - units, setting_.resolution);
-    for (Attractor& attractor : attractors_) attractor.position += shift;
     setting_.options.origin = origin;
     setting_.origin = units;
+    for (std::size_t i = 0; i < attractors_.size(); ++i) {
+        if (!attractors_[i].body.is_set()) attractors_[i].position = api_position(attractor_places_[i]);
+    }
 }
 
 template <class Real>
@@ -143,7 +155,7 @@ void Engine<Real>::set_recording(bool record_impacts, double least_recorded_impu
 
 template <class Real>
 void Engine<Real>::set_min_windows(std::uint32_t min_windows) {
-    if (min_windows < 1) throw Error(ErrorCode::out_of_range, "min_windows", "must be >= 1, got 0");
+    check_min_windows(min_windows);
     setting_.options.min_windows = min_windows;
 }
 

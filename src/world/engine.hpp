@@ -11,17 +11,20 @@
 
 namespace carom::core {
 
+/// Windows that a step can be cut into.
+inline constexpr std::uint32_t most_windows = 1'000'000;
+
 /// What does not depend on the precision and is checked before a world is made.
 struct Setting {
     WorldOptions options;
     Resolution resolution;
     Int3 origin{};       ///< units; the API's positions are relative to it
-    Int3 first_origin{}; ///< units; the origin at creation, where potential energy is zero
+    Int3 first_origin{}; ///< units; the origin at creation: the region's, and where potential energy is zero
 };
 
 /// Throws Error naming the option that is refused.
 Setting checked_setting(WorldOptions options);
-/// The origin of the API in units. Throws Error{out_of_range}.
+/// The origin of the API in units. Throws Error{out_of_range|out_of_world}.
 Int3 origin_units(const std::array<std::int64_t, 3>& origin, const Resolution& resolution);
 void check_drag(const Drag& drag);
 
@@ -86,13 +89,20 @@ private:
     void check_inside(const Motion<Real>& motion, std::size_t place) const;
     [[nodiscard]] std::vector<Int3> positions_of(const ConstBodyColumns& columns) const;
     void append(const ConstBodyColumns& columns, const std::vector<Int3>& positions);
+    void drop_last(std::size_t remaining);
     void check_overlaps_of_new(std::size_t first_new);
     BodyId give_id(Index index);
     void check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const;
     void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap);
+    void note_places(const std::vector<Index>& indices);
     void check_moved(const std::vector<Index>& indices);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
-    [[nodiscard]] Vec3 api_position(const Int3& x) const { return to_metres(x - setting_.origin, setting_.resolution); }
+    void drop_attractors_of(BodyId id);
+    [[nodiscard]] Vec3 metres_from(const Int3& zero, const Int3& x) const {
+        return {metres_between(zero.x, x.x, setting_.resolution), metres_between(zero.y, x.y, setting_.resolution),
+                metres_between(zero.z, x.z, setting_.resolution)};
+    }
+    [[nodiscard]] Vec3 api_position(const Int3& x) const { return metres_from(setting_.origin, x); }
 
     // engine_step.cpp
     void check_step(const Census& census, double dt) const;
@@ -114,11 +124,17 @@ private:
     template <class Archive>
     void transfer(Archive& archive);
     void check_loaded() const;
+    [[nodiscard]] bool arrays_are_sound() const;
+    [[nodiscard]] bool slots_are_sound() const;
+    [[nodiscard]] bool bodies_are_sound() const;
+    [[nodiscard]] bool holds_are_sound() const;
+    [[nodiscard]] bool attractors_are_sound() const;
 
     Setting setting_;
     std::uint16_t world_tag_;
     State<Real> state_;
     std::vector<Attractor> attractors_;
+    std::vector<Int3> attractor_places_; ///< units, of those that no body carries
     Clock clock_;
     Ledger ledger_;
     StepReport report_;
@@ -126,7 +142,8 @@ private:
     std::vector<Impact> impacts_;
     SerialSolver<Real> solver_;
     Placement<Real> placement_;
-    double last_step_ = 0;                ///< s, how far the last step came
+    double last_start_ = 0;               ///< s, when the last step began
+    double last_step_ = 0;                ///< s, how far it came
     std::uint32_t steps_since_order_ = 0; ///< since the bodies were last put in spatial order
 };
 

@@ -47,12 +47,15 @@ void check_mass(double mass, std::size_t place) {
 }
 
 template <class Real>
+bool is_finite(const Vector3<Real>& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+template <class Real>
 void check_velocity(const Vec3& velocity, std::size_t place) {
     check_finite(velocity, "velocity", place);
-    check_finite(Vec3{static_cast<double>(static_cast<Real>(velocity.x)),
-                      static_cast<double>(static_cast<Real>(velocity.y)),
-                      static_cast<double>(static_cast<Real>(velocity.z))},
-                 "velocity", place);
+    if (is_finite(rounded<Real>(velocity))) return;
+    throw Error(ErrorCode::out_of_range, "velocity", "does not fit the world's precision", place);
 }
 
 } // namespace
@@ -103,6 +106,11 @@ template <class Real>
 void Engine<Real>::check_radius(double radius, std::size_t place) const {
     check_not_negative(radius, "radius", place);
     check_kept<Real>(radius, "radius", place);
+    const double half_size = static_cast<double>(world_edge) * setting_.resolution.metres;
+    if (!(radius < half_size)) {
+        throw Error(ErrorCode::out_of_range, "radius",
+                    "must be less than the " + shown(half_size) + " m of the world, got " + shown(radius), place);
+    }
     for (int axis = 0; axis < 3; ++axis) {
         const double period = static_cast<double>(state_.bounds.period(axis)) * setting_.resolution.metres;
         if (period == 0 || 4 * radius < period) continue;
@@ -168,13 +176,18 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
     }
 }
 
+/// Drops the bodies that append() added behind the first `remaining`.
+template <class Real>
+void Engine<Real>::drop_last(std::size_t remaining) {
+    state_.bodies.for_each_array([remaining](auto& array) { array.resize(std::min(array.size(), remaining)); });
+}
+
 template <class Real>
 void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
     const std::size_t end = size();
     for (std::size_t i = first_new; i < end; ++i) {
         if (state_.bodies.kind[i] != Kind::fixed) check_inside(state_.bodies.motion[i], i - first_new);
     }
-    placement_.put(static_cast<Index>(end - 1));
     for (std::size_t i = first_new; i < end; ++i) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
         if (!other) continue;
@@ -217,19 +230,16 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
     if (count > most_bodies - first_new) {
         throw Error(ErrorCode::out_of_range, "position", "a world has at most 2^31 - 1 bodies");
     }
-    append(columns, positions_of(columns));
-    if (overlap == Overlap::refuse) {
-        try {
-            check_overlaps_of_new(first_new);
-        } catch (const Error&) {
-            state_.bodies.for_each_array([first_new](auto& array) { array.resize(first_new); });
-            placement_.forget();
-            throw;
-        }
-    } else {
-        placement_.forget();
-    }
+    const std::vector<Int3> positions = positions_of(columns);
     std::vector<BodyId> ids(count);
+    try {
+        append(columns, positions);
+        placement_.note(static_cast<Index>(first_new), static_cast<Index>(size() - 1));
+        if (overlap == Overlap::refuse) check_overlaps_of_new(first_new);
+    } catch (...) {
+        drop_last(first_new);
+        throw;
+    }
     for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
     return ids;
 }
@@ -264,8 +274,12 @@ void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std:
 }
 
 template <class Real>
+void Engine<Real>::note_places(const std::vector<Index>& indices) {
+    for (const Index i : indices) placement_.note(i, i);
+}
+
+template <class Real>
 void Engine<Real>::check_moved(const std::vector<Index>& indices) {
-    for (const Index i : indices) placement_.put(i);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         if (state_.bodies.kind[indices[k]] != Kind::fixed) check_inside(state_.bodies.motion[indices[k]], k);
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
@@ -296,20 +310,19 @@ void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vecto
             bodies.kind[i] = Kind::free;
         }
     }
-    if (overlap == Overlap::accept) {
-        placement_.forget();
-        return;
-    }
+    note_places(indices);
     try {
-        check_moved(indices);
-    } catch (const Error&) {
+        if (overlap == Overlap::refuse) check_moved(indices);
+    } catch (...) {
         for (std::size_t k = indices.size(); k-- > 0;) {
             bodies.motion[indices[k]] = formers[k].motion;
             bodies.kind[indices[k]] = formers[k].kind;
         }
-        placement_.forget();
+        note_places(indices);
         throw;
     }
+    if (!bodies.interpolating) return;
+    for (std::size_t k = 0; k < positions.size(); ++k) bodies.previous[indices[k]] = positions[k];
 }
 
 template <class Real>
@@ -359,11 +372,21 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
                     static_cast<std::size_t>(ids.rend() - last) - 1);
     }
     for (const BodyId id : ids) {
-        release_from(state_.bodies, id.slot);
-        std::erase_if(attractors_, [id](const Attractor& attractor) { return attractor.body == id; });
-        remove_body(state_.bodies, state_.bodies.slots[id.slot].index);
+        const Index index = state_.bodies.slots[id.slot].index;
+        if (state_.bodies.kind[index] == Kind::fixed) release_from(state_.bodies, id.slot);
+        drop_attractors_of(id);
+        remove_body(state_.bodies, index);
+        if (index < size()) placement_.note(index, index);
     }
-    placement_.forget();
+}
+
+template <class Real>
+void Engine<Real>::drop_attractors_of(BodyId id) {
+    for (std::size_t k = attractors_.size(); k-- > 0;) {
+        if (attractors_[k].body != id) continue;
+        attractors_.erase(attractors_.begin() + static_cast<std::ptrdiff_t>(k));
+        attractor_places_.erase(attractor_places_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
 }
 
 template <class Real>
@@ -375,19 +398,22 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
     }
     const std::vector<Index> indices = indices_of(ids);
     Bodies<Real>& bodies = state_.bodies;
-    const auto change = [&](std::size_t k) {
-        return are_impulses ? changes[k] / static_cast<double>(bodies.trait[indices[k]].mass) : changes[k];
-    };
     for (std::size_t k = 0; k < indices.size(); ++k) {
         check_finite(changes[k], field, k);
         if (bodies.kind[indices[k]] == Kind::fixed) throw Error(ErrorCode::out_of_range, "id", "the body is static", k);
-        check_velocity<Real>(velocity_of(bodies.motion[indices[k]]) + change(k), k);
     }
+    std::vector<Vector3<Real>> formers(indices.size());
     for (std::size_t k = 0; k < indices.size(); ++k) {
         Motion<Real>& m = bodies.motion[indices[k]];
-        m.v = rounded<Real>(velocity_of(m) + change(k));
-        release(bodies, indices[k]);
+        formers[k] = m.v;
+        const double divisor = are_impulses ? static_cast<double>(bodies.trait[indices[k]].mass) : 1;
+        m.v = rounded<Real>(velocity_of(m) + changes[k] / divisor);
+        if (is_finite(m.v)) continue;
+        // A body may be named more than once: the last change is undone first.
+        for (std::size_t j = k + 1; j-- > 0;) bodies.motion[indices[j]].v = formers[j];
+        throw Error(ErrorCode::out_of_range, field, "the velocity does not fit the world's precision", k);
     }
+    for (const Index i : indices) release(bodies, i);
 }
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \

@@ -11,7 +11,6 @@ namespace {
 /// How many windows a step is cut into. Longer windows mean longer swept boxes and more pairs that never meet; shorter
 /// ones more sorting. Results do not depend on it.
 std::uint32_t window_count(const Census& census, const Bounds& bounds, const Resolution& resolution, double dt) {
-    constexpr double most_windows = 1e6;
     double windows = 1;
     if (census.moving > 1) {
         const auto side = [&](std::int64_t low, std::int64_t high) {
@@ -28,7 +27,7 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
         const double period = static_cast<double>(bounds.period(axis)) * resolution.metres;
         if (period > 0) windows = std::max(windows, census.top_speed * dt / period);
     }
-    return static_cast<std::uint32_t>(std::ceil(std::min(windows, most_windows)));
+    return static_cast<std::uint32_t>(std::ceil(std::min<double>(windows, most_windows)));
 }
 
 } // namespace
@@ -53,8 +52,8 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
         if (end < edge) continue;
         throw Error(ErrorCode::out_of_world, "position",
                     "would leave the world of +-" + shown(edge * setting_.resolution.metres) +
-                        " m; set the resolution to " + shown(resolution_for(end * setting_.resolution.metres)) +
-                        " m or more, or take shorter steps",
+                        " m in one step (shorter ones may do); " +
+                        remedy_for(end * setting_.resolution.metres),
                     state_.bodies.trait[i].slot);
     }
 }
@@ -63,6 +62,10 @@ template <class Real>
 const StepReport& Engine<Real>::step(double dt) {
     Stopwatch watch;
     check_positive(dt, "dt");
+    if (dt > Clock::longest_interval) {
+        throw Error(ErrorCode::out_of_range, "dt",
+                    "must be at most " + shown(Clock::longest_interval) + " s, got " + shown(dt));
+    }
     state_.laws.fields = placed_fields();
     const Census census = take_census(state_.bodies);
     check_step(census, dt);
@@ -148,6 +151,7 @@ template <class Real>
 void Engine<Real>::finish_step(double dt, double reached) {
     const double start = clock_.seconds();
     if (reached > 0) clock_.advance(reached);
+    last_start_ = start;
     last_step_ = reached;
     state_.books.outer_impulse.add(state_.laws.gravity * state_.books.mass_time.value());
     report_.advanced = reached;
@@ -192,16 +196,18 @@ void Engine<Real>::positions_at(double time, std::span<const BodyId> ids, std::s
     }
     check_finite(time, "time");
     const double end = clock_.seconds();
-    if (time > end || time < end - last_step_) {
+    // The time of an impact, a rounded sum, may be a little late.
+    const double slack = 2 * std::numeric_limits<double>::epsilon() * end;
+    if (time > end + slack || time < last_start_) {
         throw Error(ErrorCode::out_of_range, "time",
-                    "must lie in the last step, [" + shown(end - last_step_) + ", " + shown(end) + "] s, got " +
+                    "must lie in the last step, [" + shown(last_start_) + ", " + shown(end) + "] s, got " +
                         shown(time));
     }
     if (positions.size() != ids.size()) {
         throw Error(ErrorCode::size_mismatch, "positions", "must be as long as ids");
     }
     const std::vector<Index> indices = indices_of(ids);
-    const double back = last_step_ > 0 ? (end - time) / last_step_ : 0;
+    const double back = last_step_ > 0 ? std::clamp((end - time) / last_step_, 0.0, 1.0) : 0;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         const Int3 now = state_.bodies.motion[indices[k]].x;
         const Int3 way = nearest_image(state_.bounds, setting_.resolution, state_.bodies.previous[indices[k]] - now, {});

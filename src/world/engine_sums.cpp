@@ -25,7 +25,7 @@ Energy Engine<Real>::energy() const {
         const Motion<Real>& m = state_.bodies.motion[i];
         const auto mass = static_cast<double>(state_.bodies.trait[i].mass);
         kinetic.add(0.5 * mass * length_squared(velocity_of(m)));
-        const Vec3 from_origin = to_metres(m.x - setting_.first_origin, setting_.resolution);
+        const Vec3 from_origin = metres_from(setting_.first_origin, m.x);
         if (state_.laws.gravity != Vec3{}) potential.add(-mass * dot(state_.laws.gravity, from_origin));
         for (const PointField& field : fields) {
             if (field.carrier == state_.bodies.trait[i].slot) continue;

@@ -27,13 +27,14 @@ double drag_factor(const Drag& drag, double speed, double duration) {
 template <class Real>
 std::vector<PointField> Engine<Real>::placed_fields() const {
     std::vector<PointField> fields;
-    for (const Attractor& attractor : attractors_) {
+    for (std::size_t i = 0; i < attractors_.size(); ++i) {
+        const Attractor& attractor = attractors_[i];
         PointField field{.strength = attractor.strength, .softening = attractor.softening};
         if (attractor.body.is_set()) {
             field.carrier = attractor.body.slot;
             field.x = state_.bodies.motion[state_.bodies.slots[field.carrier].index].x;
         } else {
-            field.x = round_to_units(attractor.position, setting_.resolution) + setting_.origin;
+            field.x = attractor_places_[i];
         }
         fields.push_back(field);
     }

@@ -1,9 +1,10 @@
 #include "world/snapshot.hpp"
 
-#include "contact/rest.hpp"
+#include "space/checks.hpp"
 #include "world/archive.hpp"
 #include "world/checksum.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace carom::core {
@@ -98,7 +99,7 @@ void transfer(Archive& archive, Motion<Real>& motion) {
 
 template <class Archive>
 void transfer(Archive& archive, Flight& flight) {
-    archive(flight.last_impact, flight.quick_impacts);
+    archive(flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
 }
 
 template <class Archive, class Real>
@@ -113,7 +114,12 @@ void transfer(Archive& archive, Slot& slot) {
 
 template <class Archive>
 void transfer(Archive& archive, Support& support) {
-    archive(support.code);
+    archive(support.code, support.normal);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Hold& hold) {
+    archive(hold.supports, hold.acceleration, hold.friction, hold.sticks);
 }
 
 template <class Archive>
@@ -124,12 +130,12 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
         for (std::uint64_t k = 0; k < count; ++k) {
             std::uint32_t slot = 0;
             archive(slot);
-            archive(holds[slot].supports);
+            archive(holds[slot]);
         }
     } else {
         for (auto& [slot, hold] : holds) {
             std::uint32_t key = slot;
-            archive(key, hold.supports);
+            archive(key, hold);
         }
     }
 }
@@ -207,11 +213,9 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
     WorldOptions options;
     OpenedSnapshot opened;
     Int3 first_origin;
-    Int3 origin;
-    reader(options, opened.world_tag, first_origin, origin);
+    reader(options, opened.world_tag, first_origin);
     opened.setting = checked_setting(std::move(options));
     opened.setting.first_origin = first_origin;
-    opened.setting.origin = origin;
     opened.payload = reader.rest();
     return opened;
 }
@@ -220,8 +224,8 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive) {
     Bodies<Real>& b = state_.bodies;
-    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, state_.books, attractors_, clock_, ledger_, last_step_,
-            steps_since_order_);
+    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, state_.books,
+            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_, steps_since_order_);
 }
 
 template <class Real>
@@ -229,7 +233,7 @@ std::vector<std::byte> Engine<Real>::save() const {
     // The layout is described once, for both directions; writing changes nothing.
     auto& self = const_cast<Engine&>(*this);
     Writer body;
-    body(self.setting_.options, self.world_tag_, self.setting_.first_origin, self.setting_.origin);
+    body(self.setting_.options, self.world_tag_, self.setting_.first_origin);
     self.transfer(body);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
@@ -249,29 +253,91 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     transfer(reader);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
-    refresh_holds(state_, 0);
+}
+
+/// A checksum finds accidents; whoever writes a right one may still have written nonsense.
+template <class Real>
+void Engine<Real>::check_loaded() const {
+    const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && holds_are_sound() &&
+                       attractors_are_sound() && clock_.is_sound() && last_start_ >= 0 && last_step_ >= 0;
+    if (!sound) refuse("contradicts itself");
 }
 
 template <class Real>
-void Engine<Real>::check_loaded() const {
+bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
-    const auto same = [&](const auto& array) { return array.size() == size(); };
-    bool sound = same(b.kind) && same(b.trait) && same(b.user_data) && (same(b.previous) || !b.interpolating);
-    for (Index i = 0; sound && i < size(); ++i) {
-        sound = b.trait[i].slot < b.slots.size() && b.slots[b.trait[i].slot].index == i && b.kind[i] <= Kind::held &&
-                (b.kind[i] == Kind::held) == b.holds.contains(b.trait[i].slot) && b.trait[i].mass > 0 && b.motion[i].radius >= 0;
+    const std::size_t expected_previous = b.interpolating ? size() : 0;
+    return b.kind.size() == size() && b.trait.size() == size() && b.user_data.size() == size() &&
+           b.previous.size() == expected_previous;
+}
+
+template <class Real>
+bool Engine<Real>::slots_are_sound() const {
+    const Bodies<Real>& b = state_.bodies;
+    std::size_t used = 0;
+    for (std::uint32_t k = 0; k < b.slots.size(); ++k) {
+        const Index index = b.slots[k].index;
+        if (index == no_index) continue;
+        if (index >= size() || b.trait[index].slot != k) return false;
+        ++used;
     }
-    for (const Slot& slot : b.slots) sound = sound && (slot.index == no_index || slot.index < size());
-    for (const std::uint32_t slot : b.free_slots) sound = sound && slot < b.slots.size();
-    for (const auto& [slot, hold] : b.holds) {
-        sound = sound && slot < b.slots.size() && !hold.supports.empty();
-        for (const Support& s : hold.supports) {
-            sound = sound && (s.is_wall() ? s.wall() < state_.bounds.walls().size()
-                                          : s.code < b.slots.size() && b.slots[s.code].index != no_index);
+    std::vector<bool> is_free(b.slots.size(), false);
+    for (const std::uint32_t slot : b.free_slots) {
+        if (slot >= b.slots.size() || b.slots[slot].index != no_index || is_free[slot]) return false;
+        is_free[slot] = true;
+    }
+    return used == size();
+}
+
+template <class Real>
+bool Engine<Real>::bodies_are_sound() const {
+    const Bodies<Real>& b = state_.bodies;
+    for (Index i = 0; i < size(); ++i) {
+        const Motion<Real>& m = b.motion[i];
+        const Trait<Real>& trait = b.trait[i];
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int64_t x = component(m.x, axis);
+            if (x < -flight_edge || x > flight_edge) return false;
         }
+        check_finite(velocity_of(m), "velocity", i);
+        check_radius(static_cast<double>(m.radius), i);
+        check_fraction(static_cast<double>(trait.restitution), "restitution", i);
+        check_not_negative(static_cast<double>(trait.friction), "friction", i);
+        check_finite(trait.flight.last_impact, "flight", i);
+        const bool fixed = b.kind[i] == Kind::fixed;
+        if (b.kind[i] > Kind::held || !(trait.mass > 0) || std::isinf(trait.mass) != fixed) return false;
+        if (fixed && velocity_of(m) != Vec3{}) return false;
+        if ((b.kind[i] == Kind::held) != b.holds.contains(trait.slot)) return false;
     }
-    for (const Attractor& a : attractors_) sound = sound && (!a.body.is_set() || contains(a.body));
-    if (!sound) refuse("contradicts itself");
+    return true;
+}
+
+template <class Real>
+bool Engine<Real>::holds_are_sound() const {
+    const Bodies<Real>& b = state_.bodies;
+    const auto stands = [&](const Support& s) {
+        check_finite(s.normal, "support");
+        if (s.is_wall()) return s.wall() < state_.bounds.walls().size();
+        return s.code < b.slots.size() && b.slots[s.code].index != no_index &&
+               b.kind[b.slots[s.code].index] == Kind::fixed;
+    };
+    for (const auto& [slot, hold] : b.holds) {
+        check_finite(hold.acceleration, "hold");
+        check_finite(hold.friction, "hold");
+        if (slot >= b.slots.size() || b.slots[slot].index == no_index || hold.supports.empty()) return false;
+        if (!std::all_of(hold.supports.begin(), hold.supports.end(), stands)) return false;
+    }
+    return true;
+}
+
+template <class Real>
+bool Engine<Real>::attractors_are_sound() const {
+    for (const Attractor& a : attractors_) {
+        check_finite(a.strength, "attractor.strength");
+        check_not_negative(a.softening, "attractor.softening");
+        if (a.body.is_set() && !contains(a.body)) return false;
+    }
+    return attractor_places_.size() == attractors_.size();
 }
 
 template <class Real>
@@ -284,7 +350,8 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
-        hasher(state_.bodies.trait[i].flight.last_impact, state_.bodies.trait[i].flight.quick_impacts);
+        const Flight& flight = state_.bodies.trait[i].flight;
+        hasher(flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }

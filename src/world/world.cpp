@@ -137,7 +137,9 @@ const StepReport& World::step(double dt) {
 }
 
 const StepReport& World::step_until(double time, double max_dt) {
+    const DefaultFloatingPoint environment;
     core::check_finite(time, "time");
+    if (std::isnan(max_dt)) throw Error(ErrorCode::not_finite, "max_dt", "must be a number, got nan");
     if (!(max_dt > 0)) {
         throw Error(ErrorCode::out_of_range, "max_dt", "must be > 0, got " + core::shown(max_dt));
     }
@@ -156,7 +158,7 @@ const StepReport& World::step_until(double time, double max_dt) {
 }
 
 double World::time() const noexcept {
-    return std::visit([](const auto& engine) { return engine.clock().seconds(); }, impl_->engine);
+    return impl_->pass([](const auto& engine) { return engine.clock().seconds(); });
 }
 
 std::uint64_t World::step_count() const noexcept {
@@ -242,10 +244,15 @@ std::vector<std::byte> World::save() const {
 
 World World::load(std::span<const std::byte> snapshot) {
     const DefaultFloatingPoint environment;
-    const core::OpenedSnapshot opened = core::open_snapshot(snapshot);
-    auto impl = std::make_unique<Impl>(opened.setting, opened.world_tag);
-    std::visit([&](auto& engine) { engine.load(opened.payload); }, impl->engine);
-    return World(std::move(impl));
+    try {
+        const core::OpenedSnapshot opened = core::open_snapshot(snapshot);
+        auto impl = std::make_unique<Impl>(opened.setting, opened.world_tag);
+        std::visit([&](auto& engine) { engine.load(opened.payload); }, impl->engine);
+        return World(std::move(impl));
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::bad_data) throw;
+        throw Error(ErrorCode::bad_data, "snapshot", std::string("has a value that no world has: ") + error.what());
+    }
 }
 
 std::uint64_t World::hash() const {

@@ -85,7 +85,8 @@ TEST(PlaneTime, TouchRule) {
 TEST(PlaneTime, TinyBouncesKeepTheirSpeed) {
     const double g = 9.81;
     for (const double gap : {0.0, -1e-17, -1e-9, -0.1}) {
-        for (double speed = 1e-150; speed < 1e-10; speed *= 70) {
+        for (int power = -150; power < -10; ++power) {
+            const double speed = 3 * std::pow(10.0, power);
             const double time = time_to_plane(gap, speed, -g, 1.0);
             EXPECT_NEAR(g * time - speed, speed, 4 * eps<double> * speed) << gap << " " << speed;
         }
@@ -337,7 +338,8 @@ TEST(BoxOutsideTime, TouchRule) {
     EXPECT_NEAR(time_to_cube({0, 0, 1.5}, {0, 0, 1}, down, 1).time, 1, 4 * eps<double>) << "never gets clear";
     // Thrown off the top: comes down beside the box.
     EXPECT_EQ(time_to_cube({0, 0, 2}, {1, 0, 3}, down, 1).time, no_impact);
-    for (double speed = 1e-30; speed < 1e-10; speed *= 7) {
+    for (int power = -30; power < -10; ++power) {
+        const double speed = 3 * std::pow(10.0, power);
         EXPECT_NEAR(time_to_cube({0, 0, 2}, {0, 0, speed}, down, 1).time, speed, 4 * eps<double> * speed);
     }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -126,7 +127,7 @@ void expect_same(double result, double expected, double x, double y = 0) {
     }
 }
 
-constexpr double specials[] = {0.0, -0.0, 1, -1, infinity, -infinity, not_a_number};
+constexpr std::array specials{0.0, -0.0, 1.0, -1.0, infinity, -infinity, not_a_number};
 
 TEST(PortableMath, SpecialValuesAreThoseOfC) {
     for (const double x : specials) {
@@ -145,9 +146,9 @@ TEST(PortableMath, SpecialValuesAreThoseOfC) {
 }
 
 TEST(PortableMath, SpecialPowersAreThoseOfC) {
-    const double exponents[] = {0.0,    -0.0,  0.5,      -0.5,      1,           -1,
-                                2,      -2,    3,        -3,        1e16,        9007199254740993.0,
-                                -1e300, 1e300, infinity, -infinity, not_a_number};
+    constexpr std::array exponents{0.0,    -0.0,  0.5,      -0.5,      1.0,         -1.0,
+                                   2.0,    -2.0,  3.0,      -3.0,      1e16,        9007199254740993.0,
+                                   -1e300, 1e300, infinity, -infinity, not_a_number};
     for (const double y : exponents) {
         for (const double x : specials) {
             expect_same(detail::pow(x, y), std::pow(x, y), x, y);

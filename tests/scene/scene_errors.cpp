@@ -130,7 +130,7 @@ rest_time = 0
     {R"([world]
 collapse_time = -1e-5
 )",
-     "s.toml:2: world.collapse_time: must be >= 0", "got -1e-05"},
+     "s.toml:2: world.collapse_time: must be > 0", "got -1e-05"},
     {R"([world]
 work_cap = -1
 )",

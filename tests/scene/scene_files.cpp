@@ -41,7 +41,7 @@ drag = { linear = 0.5, quadratic = 0.25 }
 resolution = "2^-30"
 origin = [1000000000, 0, -5]
 rest_time = 0.01
-collapse_time = 0
+collapse_time = 1e-6
 work_cap = 1000
 interpolation = true
 overlap = "accept"
@@ -55,7 +55,7 @@ overlap = "accept"
     EXPECT_EQ(options.resolution, 0x1p-30);
     EXPECT_EQ(options.origin, (std::array<std::int64_t, 3>{1000000000, 0, -5}));
     EXPECT_EQ(options.rest_time, 0.01);
-    EXPECT_EQ(options.collapse_time, 0);
+    EXPECT_EQ(options.collapse_time, 1e-6);
     EXPECT_EQ(options.work_cap, 1000U);
     EXPECT_TRUE(options.interpolation);
     EXPECT_EQ(scene.overlap, Overlap::accept);

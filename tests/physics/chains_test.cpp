@@ -1,0 +1,120 @@
+// Cradles and chains in a line, and Galperin's billiard: exact sequences of impacts.
+
+#include <carom/carom.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using carom::BodyId;
+using carom::World;
+
+struct Outcome {
+    std::vector<double> velocities;
+    std::uint64_t impacts = 0;
+};
+
+/// `count` balls in a row with gaps (m); the first `moving` of them come in together at 1 m/s.
+Outcome strike(std::size_t count, std::size_t moving, double e, double gap) {
+    World world;
+    std::vector<BodyId> ids;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double distance = i < moving ? 0.25 : 0;
+        ids.push_back(world.add({.position = {static_cast<double>(i) * (1 + gap) - distance, 0, 0},
+                                 .velocity = {i < moving ? 1.0 : 0.0, 0, 0},
+                                 .restitution = e}));
+    }
+    for (int i = 0; i < 4000; ++i) world.step(1.0 / 60);
+    Outcome outcome;
+    for (const BodyId id : ids) outcome.velocities.push_back(world.get(id).velocity.x);
+    outcome.impacts = world.ledger().impacts;
+    return outcome;
+}
+
+void expect_velocities(const Outcome& outcome, const std::vector<double>& expected, double tolerance = 1e-14) {
+    ASSERT_EQ(outcome.velocities.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(outcome.velocities[i], expected[i], tolerance) << i;
+}
+
+TEST(Cradle, AsManyOutAsIn) {
+    for (const double gap : {0.0, 1.0 / 1024}) {
+        const Outcome one = strike(5, 1, 1, gap);
+        expect_velocities(one, {0, 0, 0, 0, 1});
+        EXPECT_EQ(one.impacts, 4U);
+        const Outcome two = strike(5, 2, 1, gap);
+        expect_velocities(two, {0, 0, 0, 1, 1});
+        EXPECT_EQ(two.impacts, 6U);
+        const Outcome three = strike(5, 3, 1, gap);
+        expect_velocities(three, {0, 0, 1, 1, 1});
+        EXPECT_EQ(three.impacts, 6U);
+    }
+}
+
+TEST(Cradle, InelasticWithSmallGaps) {
+    const Outcome three = strike(3, 1, 0.9, 1.0 / 1024);
+    expect_velocities(three, {0.047625, 0.049875, 0.9025});
+    EXPECT_EQ(three.impacts, 3U);
+    const Outcome five = strike(5, 1, 0.9, 1.0 / 1024);
+    // The reference has nine decimals: half a unit of the last, and a little for our own rounding.
+    expect_velocities(five, {0.043525082, 0.045372965, 0.047296641, 0.049299062, 0.81450625}, 5.1e-10);
+    EXPECT_EQ(five.impacts, 10U);
+}
+
+TEST(Cradle, FirstPassOfALongChain) {
+    const std::size_t count = 20;
+    const double e = 0.9;
+    const Outcome outcome = strike(count, 1, e, 1.0 / 1024);
+    EXPECT_NEAR(outcome.velocities.back(), std::pow((1 + e) / 2, static_cast<double>(count - 1)), 1e-13);
+}
+
+// McNamara & Young, Phys. Fluids A 4, 496 (1992): three balls collapse below e = 7 - 4 sqrt 3. The TC rule ends it.
+TEST(Cradle, CollapseInOneDimensionEnds) {
+    const double critical = 7 - 4 * std::sqrt(3.0);
+    World world;
+    const double e = 0.5 * critical;
+    world.add({.position = {-1.5, 0, 0}, .velocity = {1, 0, 0}, .restitution = e});
+    world.add({.position = {0, 0, 0}, .restitution = e});
+    world.add({.position = {1.5, 0, 0}, .velocity = {-1, 0, 0}, .restitution = e});
+    std::uint64_t conversions = 0;
+    for (int i = 0; i < 600; ++i) conversions += world.step(1.0 / 60).tc_conversions;
+    EXPECT_GT(conversions, 0U);
+    EXPECT_LT(world.ledger().impacts, 10000U);
+    EXPECT_NEAR(world.momentum().x, 0, 1e-15);
+}
+
+TEST(Cradle, SymmetricTieKeepsMomentumAndDoesNotGainEnergy) {
+    for (const double e : {1.0, 0.5, 0.0}) {
+        World world;
+        world.add({.position = {-2, 0, 0}, .velocity = {1, 0, 0}, .restitution = e});
+        world.add({.position = {0, 0, 0}, .restitution = e});
+        world.add({.position = {2, 0, 0}, .velocity = {-1, 0, 0}, .restitution = e});
+        for (int i = 0; i < 300; ++i) world.step(1.0 / 60);
+        EXPECT_NEAR(world.momentum().x, 0, 1e-15) << e;
+        EXPECT_LE(world.energy().kinetic, 1 + 1e-15) << e;
+    }
+}
+
+// Galperin, Regular and Chaotic Dynamics 8, 375 (2003): impacts between a wall, a ball of mass 1 and one of mass 100^k
+// that comes in count the digits of pi.
+TEST(Pi, DigitsAsImpacts) {
+    constexpr std::uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159};
+    double mass = 1;
+    for (const std::uint64_t expected : digits) {
+        carom::WorldOptions options;
+        options.region = std::vector<carom::Plane>{{.normal = {1, 0, 0}}};
+        options.record_impacts = false;
+        World world(options);
+        world.add({.position = {2, 0, 0}});
+        world.add({.position = {4, 0, 0}, .velocity = {-1, 0, 0}, .mass = mass});
+        for (int i = 0; i < 200; ++i) world.step(0.125);
+        EXPECT_EQ(world.ledger().impacts + world.ledger().face_impacts, expected) << "mass " << mass;
+        EXPECT_NEAR(world.energy().kinetic / (0.5 * mass), 1, 1e-10) << "mass " << mass;
+        mass *= 100;
+    }
+}
+
+} // namespace
