@@ -108,8 +108,7 @@ void refresh_holds(State<Real>& state, double duration) {
         const Vec3 v = velocity_of(bodies.motion[body]);
         std::erase_if(hold.supports, [&](Support& s) {
             s.normal = normal_of(state, body, s);
-            const bool leaves = dot(v, s.normal) < -approach_rounding<Real>(v, {}, s.normal);
-            return leaves || pressure_on(state, body, s, v).acceleration <= 0;
+            return pressure_on(state, body, s, v).acceleration <= 0;
         });
         if (hold.supports.empty()) {
             bodies.kind[body] = Kind::free;

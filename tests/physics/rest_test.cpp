@@ -1,0 +1,207 @@
+// Coming to rest against faces and static bodies, sliding, and being let go.
+
+#include <carom/carom.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using carom::Body;
+using carom::BodyId;
+using carom::Vec3;
+using carom::World;
+using carom::WorldOptions;
+
+constexpr double g = 9.81;
+
+WorldOptions floor_world(const Vec3& normal = {0, 0, 1}) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.region = std::vector<carom::Plane>{{.normal = normal}};
+    return options;
+}
+
+void run(World& world, double seconds, double dt = 1.0 / 60) {
+    const double end = world.time() + seconds;
+    while (world.time() < end - dt / 2) world.step(dt);
+}
+
+TEST(Rest, ABodyThatLiesStaysAndDoesNothing) {
+    for (const double e : {0.0, 0.5, 1.0}) {
+        World world(floor_world());
+        const BodyId ball = world.add({.position = {0, 0, 0.1}, .radius = 0.1, .restitution = e});
+        run(world, 10);
+        EXPECT_TRUE(world.held(ball)) << e;
+        EXPECT_NEAR(world.get(ball).position.z, 0.1, 2 * world.resolution());
+        EXPECT_EQ(world.ledger().face_impacts, 0U) << e;
+    }
+}
+
+TEST(Rest, AFrictionlessBodySlidesOnForEver) {
+    World world(floor_world());
+    const BodyId ball = world.add({.position = {0, 0, 0.5}, .velocity = {1e-3, 0, 0}, .restitution = 0.3});
+    run(world, 60);
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_EQ(world.get(ball).velocity, (Vec3{1e-3, 0, 0}));
+    EXPECT_NEAR(world.get(ball).position.x, 0.06, 1e-9);
+}
+
+TEST(Rest, FrictionStopsASlidingBody) {
+    World world(floor_world());
+    const BodyId ball = world.add({.position = {0, 0, 0.5}, .velocity = {3, 0, 0}, .restitution = 0, .friction = 0.5});
+    run(world, 3);
+    // v^2 / (2 mu g), but for the last step, which brings it to a stop evenly.
+    EXPECT_NEAR(world.get(ball).position.x, 9 / (2 * 0.5 * g), 0.5 * 0.5 * g / 3600);
+    EXPECT_EQ(world.get(ball).velocity, Vec3{});
+    EXPECT_NEAR(world.ledger().lost_to_friction, 4.5, 1e-9);
+}
+
+TEST(Rest, ASlopeHoldsBelowTheAngleOfFrictionOnly) {
+    const double mu = 0.5;
+    for (const double factor : {0.99, 1.01}) {
+        const double angle = std::atan(mu) * factor;
+        World world(floor_world({std::sin(angle), 0, std::cos(angle)}));
+        const Vec3 normal{std::sin(angle), 0, std::cos(angle)};
+        const BodyId ball = world.add({.position = normal * 0.5, .restitution = 0, .friction = mu});
+        run(world, 2);
+        const double expected = factor < 1 ? 0 : 0.5 * (g * std::sin(angle) - mu * g * std::cos(angle)) * 4;
+        EXPECT_NEAR(length(world.get(ball).position - normal * 0.5), expected, 1e-9) << factor;
+        EXPECT_TRUE(world.held(ball));
+    }
+}
+
+TEST(Rest, AFrictionlessSlopeIsAParabolaInOneDimension) {
+    const double angle = 0.4;
+    const Vec3 normal{std::sin(angle), 0, std::cos(angle)};
+    World world(floor_world(normal));
+    const BodyId ball = world.add({.position = normal * 0.5, .restitution = 0});
+    const double start = world.energy().total();
+    run(world, 3);
+    EXPECT_NEAR(length(world.get(ball).velocity), g * std::sin(angle) * 3, 1e-9);
+    EXPECT_NEAR(world.energy().total(), start, 1e-9);
+}
+
+TEST(Rest, InACornerAgainstThreeFaces) {
+    WorldOptions options;
+    options.gravity = {-3, -4, -g};
+    options.region = carom::Box{{0, 0, 0}, {10, 10, 10}};
+    World world(options);
+    const BodyId ball = world.add({.position = {4, 5, 6}, .velocity = {1, 2, 3}, .restitution = 0.6});
+    run(world, 30);
+    EXPECT_TRUE(world.held(ball));
+    const Body body = world.get(ball);
+    EXPECT_NEAR(length(body.position - Vec3{0.5, 0.5, 0.5}), 0, 1e-11);
+    EXPECT_EQ(body.velocity, Vec3{});
+    EXPECT_LT(world.ledger().face_impacts, 200U);
+}
+
+TEST(Rest, InAWedgeOfSlantedPlanes) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.region = std::vector<carom::Plane>{{.normal = {1, 0, 1}}, {.normal = {-1, 0, 2}}, {.normal = {0.1, 1, 1}},
+                                               {.normal = {0, -1, 1}}};
+    World world(options);
+    const BodyId ball = world.add({.position = {0.2, 0.1, 3}, .restitution = 0.5, .friction = 0.1});
+    run(world, 60);
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_LE(length(world.get(ball).velocity), 1e-12);
+}
+
+TEST(Rest, StruckBodiesMoveAgain) {
+    World world(floor_world());
+    const BodyId ball = world.add({.position = {0, 0, 0.5}, .restitution = 0});
+    const BodyId cue = world.add({.position = {-3, 0, 0.5}, .velocity = {2, 0, 0}, .restitution = 1});
+    run(world, 3);
+    EXPECT_EQ(world.get(ball).velocity, (Vec3{2, 0, 0}));
+    EXPECT_EQ(world.get(cue).velocity, Vec3{});
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_EQ(world.ledger().impacts, 1U);
+}
+
+TEST(Rest, ABlowFromAboveIsPassedToTheFloor) {
+    World world(floor_world());
+    world.add({.position = {0, 0, 0.5}, .restitution = 1});
+    const BodyId upper = world.add({.position = {0, 0, 3}, .restitution = 1});
+    const double start = world.energy().total();
+    run(world, 20);
+    EXPECT_NEAR(world.energy().total(), start, 1e-9);
+    EXPECT_GT(world.get(upper).position.z, 1.5 - 1e-9);
+}
+
+TEST(Rest, LetGoWhenGravityTurnsOrTheSupportGoes) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    World world(options);
+    const BodyId rock = world.add({.position = {0, 0, -2}, .mass = carom::infinite_mass, .radius = 2, .restitution = 0});
+    const BodyId ball = world.add({.position = {0, 0, 0.5}, .restitution = 0.2});
+    run(world, 1);
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_EQ(world.get(ball).position, (Vec3{0, 0, 0.5}));
+    world.remove(rock);
+    EXPECT_FALSE(world.held(ball));
+    run(world, 1);
+    EXPECT_NEAR(world.get(ball).position.z, 0.5 - g / 2, 1e-9);
+}
+
+TEST(Rest, SlidesOffASphereWhereItShould) {
+    // A body that slides from the top of a smooth sphere leaves it at the height of two thirds of the radius.
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    World world(options);
+    world.add({.mass = carom::infinite_mass, .radius = 9.5, .restitution = 0});
+    const BodyId ball = world.add({.position = {0, 0, 10}, .velocity = {0.05, 0, 0}, .restitution = 0});
+    const double start = world.energy().total();
+    double height = 10;
+    for (int i = 0; i < 20000; ++i) {
+        world.step(1.0 / 1000);
+        if (i > 10 && !world.held(ball)) break;
+        height = world.get(ball).position.z;
+    }
+    EXPECT_NEAR(height, 10 * 2.0 / 3, 0.02);
+    EXPECT_NEAR(world.energy().total(), start, 0.02 * g * 10);
+}
+
+TEST(Rest, InsideAShell) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.region = carom::Shell{.radius = 5};
+    World world(options);
+    const BodyId ball = world.add({.position = {1, 0, 0}, .restitution = 0.5, .friction = 0.3});
+    run(world, 60);
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_NEAR(length(world.get(ball).position), 4.5, 1e-9);
+    // Friction holds it near the bottom.
+    EXPECT_LE(std::abs(world.get(ball).position.x), 4.5 * std::sin(std::atan(0.3)) + 0.01);
+}
+
+TEST(Rest, OnAPlanetThatAttracts) {
+    for (const double dt : {1.0 / 240, 1.0 / 60, 1.0 / 20}) {
+        World world;
+        const BodyId planet = world.add({.mass = carom::infinite_mass, .radius = 100, .restitution = 0});
+        world.set_attractors(std::vector<carom::Attractor>{{.strength = 9.81e4, .body = planet}});
+        const BodyId ball = world.add({.position = {0, 0, 103}, .restitution = 0.5, .friction = 0.5});
+        run(world, 20, dt);
+        EXPECT_TRUE(world.held(ball)) << dt;
+        EXPECT_NEAR(length(world.get(ball).position), 100.5, 1e-9) << dt;
+        EXPECT_LT(world.ledger().impacts, 200U) << dt;
+    }
+}
+
+TEST(Rest, AHeapWithoutAContactSolverStillEnds) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.region = carom::Box{{0, 0, 0}, {2, 2, 20}};
+    options.work_cap = 20000;
+    World world(options);
+    for (int i = 0; i < 6; ++i) world.add({.position = {1 + 0.01 * (i % 3), 1, 1 + 1.5 * i}, .restitution = 0.2});
+    for (int i = 0; i < 120; ++i) {
+        const carom::StepReport& report = world.step(1.0 / 60);
+        EXPECT_GT(report.advanced, 0);
+    }
+    for (const BodyId id : world.ids()) EXPECT_TRUE(std::isfinite(world.get(id).position.z));
+}
+
+} // namespace
