@@ -1,12 +1,11 @@
 #include "commands.hpp"
 #include "memory.hpp"
 #include "options.hpp"
-#include "stepping.hpp"
-
 #include "scene/overlap_search.hpp"
 #include "scene/scene.hpp"
 #include "scene/summary.hpp"
 #include "scene/workloads.hpp"
+#include "stepping.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -43,8 +42,8 @@ struct Plan {
 constexpr std::uint64_t steps_before_memory = 100;
 
 Plan plan_of(const BenchOptions& options) {
-    scene::Workload workload = scene::workload(options.workload, *options.bodies,
-                                               options.precision.value_or(Precision::double_precision));
+    scene::Workload workload =
+        scene::workload(options.workload, *options.bodies, options.precision.value_or(Precision::double_precision));
     if (options.dt) workload.scene.run.dt = *options.dt;
     Plan plan{.scene = std::move(workload.scene), .warm_up = options.warm_up.value_or(workload.warm_up)};
     plan.steps = options.steps.value_or(plan.scene.run.steps.value_or(120));

@@ -1,6 +1,5 @@
 #include "commands.hpp"
 #include "options.hpp"
-
 #include "scene/summary.hpp"
 
 #include <carom/world.hpp>
@@ -73,9 +72,9 @@ int info(bool as_json) {
     line("compiler", json["compiler"]);
     line("build", json["build"]);
     line("precision", json["precision"].get<std::string>() + " unless said otherwise");
-    line("resolution", fmt::format("{} m in double, {} m in single precision",
-                                   json["resolution"]["double"].get<double>(),
-                                   json["resolution"]["single"].get<double>()));
+    line("resolution",
+         fmt::format("{} m in double, {} m in single precision", json["resolution"]["double"].get<double>(),
+                     json["resolution"]["single"].get<double>()));
     line("simd", json["simd"]);
     line("threads", fmt::format("{} used of {} cores", json["threads"].get<unsigned>(), json["cores"].get<unsigned>()));
     return success;

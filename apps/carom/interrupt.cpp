@@ -13,7 +13,7 @@ void note(int number) { noted_signal = number; }
 } // namespace
 
 void note_interrupts() {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = note;
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     sigaction(SIGINT, &action, nullptr);

@@ -1,6 +1,5 @@
 #include "commands.hpp"
 #include "options.hpp"
-
 #include "scene/scene_error.hpp"
 
 #include <carom/error.hpp>

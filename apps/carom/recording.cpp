@@ -1,7 +1,6 @@
 #include "recording.hpp"
 
 #include "options.hpp"
-
 #include "scene/atomic_file.hpp"
 #include "scene/checkpoint.hpp"
 #include "scene/impact_log.hpp"
@@ -38,10 +37,14 @@ Table table_of(std::string_view text) {
 void read_into(Recording& recording, const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = scene::read_file(file);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (text.starts_with(scene::timeline_header())) recording.timeline = table_of(text);
-    else if (text.starts_with(scene::impact_log_header())) recording.impacts = table_of(text);
-    else if (scene::looks_like_checkpoint(bytes)) recording.state = scene::load_checkpoint(bytes).world;
-    else recording.state = World::load(bytes);
+    if (text.starts_with(scene::timeline_header()))
+        recording.timeline = table_of(text);
+    else if (text.starts_with(scene::impact_log_header()))
+        recording.impacts = table_of(text);
+    else if (scene::looks_like_checkpoint(bytes))
+        recording.state = scene::load_checkpoint(bytes).world;
+    else
+        recording.state = World::load(bytes);
 }
 
 /// One field of a body with its value in either state.
@@ -112,7 +115,8 @@ std::optional<std::string> compare_bodies(const World& a, const World& b) {
         auto field = first_difference(body_a, body_b);
         if (!field) field = compare("held", std::uint64_t{a.held(ids_a[i])}, std::uint64_t{b.held(ids_b[i])});
         if (!field) continue;
-        if (++different == 1) first = fmt::format("body {}: {} is {} and {}", ids_a[i].slot, field->field, field->a, field->b);
+        if (++different == 1)
+            first = fmt::format("body {}: {} is {} and {}", ids_a[i].slot, field->field, field->a, field->b);
         farthest = std::max(farthest, length(body_b.position - body_a.position));
     }
     if (different == 0) return std::nullopt;

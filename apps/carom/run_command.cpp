@@ -3,14 +3,13 @@
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
-#include "simulation.hpp"
-
 #include "scene/atomic_file.hpp"
 #include "scene/energy_plot.hpp"
 #include "scene/impact_log.hpp"
 #include "scene/scene.hpp"
 #include "scene/summary.hpp"
 #include "scene/timeline.hpp"
+#include "simulation.hpp"
 
 #include <carom/error.hpp>
 
@@ -82,9 +81,9 @@ Ending run_to_its_end(Simulation& simulation, const OutputFolder& folder, double
         return {failure, fmt::format("step {} failed: {}", simulation.steps() + 1, error.what())};
     }
     if (simulation.finished()) return {};
-    return {128 + interrupted_by(), fmt::format("interrupted after {} of {} steps; go on with --resume {}",
-                                                simulation.steps(), simulation.schedule().steps,
-                                                folder.file("checkpoint.carom").string())};
+    return {128 + interrupted_by(),
+            fmt::format("interrupted after {} of {} steps; go on with --resume {}", simulation.steps(),
+                        simulation.schedule().steps, folder.file("checkpoint.carom").string())};
 }
 
 nlohmann::ordered_json to_json(const scene::Scene& scene, const Simulation& simulation, const scene::Summary& summary) {

@@ -2,7 +2,6 @@
 
 #include "memory.hpp"
 #include "options.hpp"
-
 #include "scene/atomic_file.hpp"
 #include "scene/impact_log.hpp"
 

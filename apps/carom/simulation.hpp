@@ -2,12 +2,11 @@
 /// A run of a scene: its world and all that is recorded of it, step by step.
 #pragma once
 
-#include "stepping.hpp"
-
 #include "scene/checkpoint.hpp"
 #include "scene/overlap_search.hpp"
 #include "scene/scene.hpp"
 #include "scene/summary.hpp"
+#include "stepping.hpp"
 
 #include <carom/world.hpp>
 

@@ -30,7 +30,7 @@ double reach_of(const Motion<Real>& m, const Vec3& acceleration, double to) {
 
 /// The length (m) that ticks are made for: a body and its way through the window.
 double tick_scale(const Census& census, double duration, const Resolution& resolution) {
-    return std::max(2 * (census.mean_radius + census.rms_speed * duration), resolution.metres);
+    return std::max(2 * (census.mean_radius + census.typical_speed * duration), resolution.metres);
 }
 
 } // namespace
@@ -44,7 +44,9 @@ Progress SerialSolver<Real>::resolve(const Census& census, double from, double t
     queue_.clear();
     predict_first(from, to);
     seconds_.pairs += watch.lap();
+    const std::uint64_t before = outcome.impacts;
     const Progress progress = run_queue(to, work_cap, outcome);
+    impacts_per_body_ = static_cast<double>(outcome.impacts - before) / static_cast<double>(state_.bodies.size() + 1);
     seconds_.impacts += watch.lap();
     return progress;
 }
@@ -54,9 +56,11 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
     const Bodies<Real>& bodies = state_.bodies;
     const double duration = to - from;
     ticks_ = Ticks(state_.bounds, state_.resolution, tick_scale(census, duration, state_.resolution));
-    // More slack means more neighbours to predict, less means more bodies that leave their covers.
-    constexpr double slack_part = 0.3;
-    slack_ = slack_part * census.rms_speed * duration;
+    // More slack means more neighbours to predict, less means more bodies that leave their covers: it pays where there
+    // are many impacts.
+    constexpr double most_slack = 0.3;
+    constexpr double slack_per_impact = 6;
+    slack_ = std::min(most_slack, slack_per_impact * impacts_per_body_) * census.typical_speed * duration;
     covers_.resize(bodies.size());
     near_walls_.clear();
     for (Index i = 0; i < bodies.size(); ++i) {

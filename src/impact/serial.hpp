@@ -53,6 +53,7 @@ private:
     EventQueue<Real> queue_;
     std::vector<SweptBox> covers_;
     std::vector<Index> near_walls_; ///< bodies that may meet a wall in the window
+    double impacts_per_body_ = 0; ///< in the last window
     std::uint64_t predictions_ = 0;
     PhaseTimes seconds_{};
 };

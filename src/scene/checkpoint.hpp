@@ -18,9 +18,9 @@ namespace carom::scene {
 
 /// What a run was started with, as far as its results depend on it: a checkpoint is continued only by the same.
 struct RunIdentity {
-    std::string scene;         ///< its name
-    std::uint64_t bodies = 0;  ///< at the start
-    std::uint64_t world = 0;   ///< hash of the world's snapshot at the start: everything else of the scene
+    std::string scene;        ///< its name
+    std::uint64_t bodies = 0; ///< at the start
+    std::uint64_t world = 0;  ///< hash of the world's snapshot at the start: everything else of the scene
     Precision precision = Precision::double_precision;
     double dt = 0;             ///< s
     double timeline_every = 0; ///< s between rows of the timeline; 0: a row per step

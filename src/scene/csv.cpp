@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
+#include <optional>
 
 namespace carom::scene {
 
@@ -62,7 +62,7 @@ public:
 
     CsvBodies parse(std::string_view text) {
         constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // spreadsheets write one
-        if (text.substr(0, byte_order_mark.size()) == byte_order_mark) text.remove_prefix(byte_order_mark.size());
+        if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
         while (!text.empty()) {
             ++line_;
             const std::string_view content = trimmed(take_until('\n', text));
@@ -124,14 +124,13 @@ private:
     }
 
     double number(const Column& column, std::string_view text) const {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc{} || end != text.data() + text.size()) {
+        const std::optional<double> value = number_of_text(text);
+        if (!value) {
             constexpr std::size_t longest = 40;
             fail(column.name, fmt::format("must be a number, got '{}'", text.substr(0, longest)));
         }
-        if (!column.range.contains(value)) fail(column.name, fmt::format("{}, got {}", column.range.allowed, value));
-        return value;
+        if (!column.range.contains(*value)) fail(column.name, fmt::format("{}, got {}", column.range.allowed, *value));
+        return *value;
     }
 
     const std::string& file_;

@@ -57,7 +57,8 @@ Unit unit_for(double largest, std::string_view name) {
     if (power >= -5 && power <= 5) {
         return {size, fmt::format("{}{}", prefixes.at(static_cast<std::size_t>(power + 5)), name)};
     }
-    return {size, fmt::format(R"(10<tspan dy="-5" style="font-size:10px">{}</tspan><tspan dx="5" dy="5">{}</tspan>)", 3 * power, name)};
+    return {size, fmt::format(R"(10<tspan dy="-5" style="font-size:10px">{}</tspan><tspan dx="5" dy="5">{}</tspan>)",
+                              3 * power, name)};
 }
 
 Unit time_unit_for(double duration) {
@@ -98,10 +99,14 @@ Scale round_scale(double low, double high, int ticks, double from, double to) {
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char c : text) {
-        if (c == '<') result += "&lt;";
-        else if (c == '>') result += "&gt;";
-        else if (c == '&') result += "&amp;";
-        else if (static_cast<unsigned char>(c) >= 0x20) result += c;
+        if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '&')
+            result += "&amp;";
+        else if (static_cast<unsigned char>(c) >= 0x20)
+            result += c;
     }
     return result;
 }
@@ -123,7 +128,8 @@ double text_width(std::string_view text) {
 class Picture {
 public:
     Picture() {
-        add(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">)", width, height);
+        add(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">)", width,
+            height);
         text_ += '\n';
         text_ += style;
         add(R"(<rect class="paper" width="{}" height="{}"/>)", width, height);
@@ -151,8 +157,10 @@ public:
     double legend(double end, double y, std::string_view classes, std::string_view name, bool is_bar) {
         const double sample = is_bar ? 13 : 26;
         const double start = end - text_width(name) - sample - 7;
-        if (is_bar) bar(classes, start, y - 11, sample, 13);
-        else line(fmt::format("line {}", classes), start, y - 4.5, start + sample, y - 4.5);
+        if (is_bar)
+            bar(classes, start, y - 11, sample, 13);
+        else
+            line(fmt::format("line {}", classes), start, y - 4.5, start + sample, y - 4.5);
         text(start + sample + 7, y, "left", name);
         return start - 22;
     }

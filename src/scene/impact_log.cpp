@@ -14,8 +14,10 @@ void append_impacts(std::string& log, std::uint64_t step, std::span<const Impact
     const auto out = std::back_inserter(log);
     for (const Impact& i : impacts) {
         fmt::format_to(out, "{},{},{},{},", step, i.time, i.offset, i.a.slot);
-        if (i.b.is_set()) fmt::format_to(out, "{},,", i.b.slot);
-        else fmt::format_to(out, ",{},", i.face);
+        if (i.b.is_set())
+            fmt::format_to(out, "{},,", i.b.slot);
+        else
+            fmt::format_to(out, ",{},", i.face);
         fmt::format_to(out, "{},{},{},{},{},{},{},{},{}\n", i.position.x, i.position.y, i.position.z, i.normal.x,
                        i.normal.y, i.normal.z, i.impulse, i.approach_speed, i.energy_lost);
     }

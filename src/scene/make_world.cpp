@@ -20,7 +20,7 @@ int line_of(const Scene& scene, const std::string& key) {
 /// An option that the world refused, under its name in the file.
 SceneError option_error(const Scene& scene, const Error& error) {
     const std::string& field = error.field();
-    if (field.compare(0, 6, "region") == 0) return {scene.file, line_of(scene, "region"), field, reason_of(error)};
+    if (field.starts_with("region")) return {scene.file, line_of(scene, "region"), field, reason_of(error)};
     const std::string key = "world." + field;
     return {scene.file, line_of(scene, key), key, reason_of(error)};
 }

@@ -31,9 +31,9 @@ public:
 
 private:
     struct Entry {
-        Vec3 position;
-        double radius;
-        std::uint32_t next; ///< next entry in the same bucket
+        Vec3 position{};
+        double radius = 0;
+        std::uint32_t next = 0; ///< next entry in the same bucket
     };
     using Cell = std::array<std::int64_t, 3>;
 

@@ -98,7 +98,7 @@ private:
 
     std::vector<double> radii_;
     std::vector<std::uint8_t> is_static_;
-    std::vector<Level> levels_; ///< small bodies first
+    std::vector<Level> levels_;                              ///< small bodies first
     std::vector<std::pair<Member, std::uint32_t>> unsorted_; ///< with their buckets
     std::vector<BodyId> ids_;
     std::vector<Vec3> positions_;

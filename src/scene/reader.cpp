@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -49,8 +51,8 @@ std::string shown(std::string_view text) {
 }
 
 const char* type_name(const TomlValue& value) {
-    constexpr const char* names[] = {"a date or time", "a truth value", "an integer", "a number",
-                                     "a text",         "an array",      "a table"};
+    constexpr std::array<const char*, 7> names{"a date or time", "a truth value", "an integer", "a number",
+                                               "a text",         "an array",      "a table"};
     return names[value.data.index()];
 }
 
@@ -58,6 +60,13 @@ const char* type_name(const TomlValue& value) {
 
 std::string not_one_of(std::string_view got, std::span<const std::string_view> allowed) {
     return fmt::format("must be one of {}, got {}{}", fmt::join(allowed, ", "), shown(got), hint(got, allowed));
+}
+
+std::optional<double> number_of_text(std::string_view text) {
+    double value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
+    return value;
 }
 
 bool NumberRange::contains(double value) const {
@@ -94,7 +103,7 @@ std::int64_t ValueReader::integer() const {
 
 std::uint64_t ValueReader::count(std::uint64_t min, std::uint64_t max) const {
     const std::int64_t value = integer();
-    if (value < 0 || static_cast<std::uint64_t>(value) < min || static_cast<std::uint64_t>(value) > max) {
+    if (std::cmp_less(value, min) || std::cmp_greater(value, max)) {
         fail(fmt::format("must be an integer in [{}, {}], got {}", min, max, value));
     }
     return static_cast<std::uint64_t>(value);

@@ -128,6 +128,9 @@ private:
     std::vector<std::string_view> known_; ///< keys asked for
 };
 
+/// The number that a text is from its first to its last character, whatever the locale; nothing if it is none.
+std::optional<double> number_of_text(std::string_view text);
+
 /// "must be one of a, b, c, got 'x'", with the nearest of them if there is a likely one.
 std::string not_one_of(std::string_view got, std::span<const std::string_view> allowed);
 

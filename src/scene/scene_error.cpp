@@ -26,7 +26,7 @@ std::string reason_of(const Error& error) {
     const std::string text = error.what();
     const std::string field =
         error.index() == Error::no_index ? error.field() + ": " : fmt::format("{}[{}]: ", error.field(), error.index());
-    return text.compare(0, field.size(), field) == 0 ? text.substr(field.size()) : text;
+    return text.starts_with(field) ? text.substr(field.size()) : text;
 }
 
 } // namespace carom::scene

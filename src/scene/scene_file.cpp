@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <new>
 
@@ -35,21 +36,12 @@ double read_resolution(const ValueReader& value) {
     const std::string text = value.text();
     int exponent = 0;
     const char* end = text.data() + text.size();
-    if (text.compare(0, 2, "2^") != 0) value.fail(fmt::format("{}, got '{}'", allowed, text.substr(0, 40)));
-    const auto [rest, error] = std::from_chars(text.data() + 2, end, exponent);
+    const char* start = text.starts_with("2^") ? text.data() + 2 : end;
+    const auto [rest, error] = std::from_chars(start, end, exponent);
     if (error != std::errc{} || rest != end || std::abs(exponent) > largest_exponent) {
         value.fail(fmt::format("{}, got '{}'", allowed, text.substr(0, 40)));
     }
     return std::ldexp(1.0, exponent);
-}
-
-/// Text that is a number from its first to its last character.
-std::optional<double> number_in(std::string_view text) {
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || rest != end) return std::nullopt;
-    return value;
 }
 
 /// s: a number, or a text like "1/60".
@@ -57,8 +49,8 @@ double read_dt(const ValueReader& value) {
     if (!value.is_text()) return value.number(positive);
     const std::string text = value.text();
     const std::size_t slash = text.find('/');
-    const auto above = number_in(std::string_view(text).substr(0, slash));
-    const auto below = slash == std::string::npos ? 1.0 : number_in(std::string_view(text).substr(slash + 1));
+    const auto above = number_of_text(std::string_view(text).substr(0, slash));
+    const auto below = slash == std::string::npos ? 1.0 : number_of_text(std::string_view(text).substr(slash + 1));
     const double dt = above && below ? *above / *below : 0;
     if (!positive.contains(dt)) {
         value.fail(fmt::format("must be > 0 s: a number, or a text like \"1/60\", got '{}'", text.substr(0, 40)));

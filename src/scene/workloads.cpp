@@ -165,6 +165,7 @@ constexpr std::array<Maker, infos.size()> makers{gas, dense_gas, cooling, polydi
 /// The place of a workload in the lists.
 std::size_t number_of(std::string_view name) {
     std::vector<std::string_view> names;
+    names.reserve(infos.size());
     for (const WorkloadInfo& info : infos) names.push_back(info.name);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) throw SceneError("", 0, "workload", not_one_of(name, names));

@@ -45,8 +45,9 @@ inline constexpr std::int64_t world_edge =
 inline constexpr std::int64_t flight_edge =
     std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 58) + 1;
 
-/// Resolutions lie between 2^-200 m and 2^200 m.
-inline constexpr int largest_resolution_exponent = 200;
+/// Resolutions lie between 2^-100 m and 2^40 m, which makes a world of 1e31 m: all lengths fit a float.
+inline constexpr int smallest_resolution_exponent = -100;
+inline constexpr int largest_resolution_exponent = 40;
 
 /// The world's unit of length.
 struct Resolution {

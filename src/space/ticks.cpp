@@ -10,7 +10,7 @@ Census take_census(const Bodies<Real>& bodies) {
     if (bodies.size() == 0) return census;
     census.low = census.high = bodies.motion.front().x;
     double radii = 0;
-    double speeds_squared = 0;
+    double speeds = 0;
     double top_squared = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Motion<Real>& m = bodies.motion[i];
@@ -18,16 +18,17 @@ Census take_census(const Bodies<Real>& bodies) {
         census.high = {std::max(census.high.x, m.x.x), std::max(census.high.y, m.x.y),
                        std::max(census.high.z, m.x.z)};
         if (bodies.kind[i] == Kind::fixed) continue;
-        const double speed_squared = length_squared(velocity_of(m));
+        const Vec3 v = velocity_of(m);
         radii += static_cast<double>(m.radius);
-        speeds_squared += speed_squared;
-        top_squared = std::max(top_squared, speed_squared);
+        speeds += std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+        top_squared = std::max(top_squared, length_squared(v));
         ++census.moving;
     }
     census.top_speed = std::sqrt(top_squared);
     if (census.moving > 0) {
         census.mean_radius = radii / static_cast<double>(census.moving);
-        census.rms_speed = std::sqrt(speeds_squared / static_cast<double>(census.moving));
+        // Over all directions the sum of the components' sizes is 3/2 of the length.
+        census.typical_speed = speeds / 1.5 / static_cast<double>(census.moving);
     }
     return census;
 }

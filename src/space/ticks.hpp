@@ -14,7 +14,7 @@ struct Census {
     Int3 low{};               ///< units, of the bodies' positions
     Int3 high{};              ///< units
     double mean_radius = 0;   ///< m, of the bodies that are not static
-    double rms_speed = 0;     ///< m/s, of the bodies that are not static
+    double typical_speed = 0; ///< m/s, the mean over the bodies that are not static: a few fast ones hardly count
     double top_speed = 0;     ///< m/s
     std::size_t moving = 0;   ///< bodies that are not static
 };

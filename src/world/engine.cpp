@@ -17,8 +17,9 @@ double checked_resolution(const WorldOptions& options) {
         throw Error(ErrorCode::out_of_range, "resolution", "must be a power of two, got " + shown(options.resolution));
     }
     // The resolution is 2^(exponent - 1).
-    if (std::abs(exponent - 1) > largest_resolution_exponent) {
-        throw Error(ErrorCode::out_of_range, "resolution", "must lie in [2^-200, 2^200] m");
+    if (exponent - 1 < smallest_resolution_exponent || exponent - 1 > largest_resolution_exponent) {
+        throw Error(ErrorCode::out_of_range, "resolution",
+                    "must lie in [2^-100, 2^40] m, got " + shown(options.resolution));
     }
     return options.resolution;
 }
@@ -26,8 +27,7 @@ double checked_resolution(const WorldOptions& options) {
 /// A whole number of metres, other than 0 and inside the world, in units.
 std::int64_t whole_units(std::int64_t metres, const Resolution& resolution, std::size_t axis) {
     if (resolution.metres <= 1) return metres * static_cast<std::int64_t>(resolution.per_metre);
-    constexpr double beyond_integers = 0x1p63;
-    if (resolution.metres >= beyond_integers || metres % static_cast<std::int64_t>(resolution.metres) != 0) {
+    if (metres % static_cast<std::int64_t>(resolution.metres) != 0) {
         throw Error(ErrorCode::out_of_range, "origin", "must be a multiple of the resolution", axis);
     }
     return metres / static_cast<std::int64_t>(resolution.metres);

@@ -105,6 +105,8 @@ private:
     [[nodiscard]] Vec3 api_position(const Int3& x) const { return metres_from(setting_.origin, x); }
 
     // engine_step.cpp
+    /// m/s^2, at least what the attractors do to any body.
+    [[nodiscard]] double strongest_attraction() const;
     void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);

@@ -20,7 +20,8 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
                               side(census.low.z, census.high.z);
         const double spacing = std::cbrt(volume / static_cast<double>(census.moving));
         const double way = std::max(census.mean_radius, spacing / 4);
-        if (way > 0) windows = std::max(windows, census.rms_speed * dt / way);
+        // Testing all pairs once costs no more than as many windows as there are bodies.
+        if (way > 0) windows = std::clamp(census.typical_speed * dt / way, 1.0, static_cast<double>(census.moving));
     }
     for (int axis = 0; axis < 3; ++axis) {
         // Few periodic images to try for the fastest body.
@@ -33,6 +34,21 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
 } // namespace
 
 template <class Real>
+double Engine<Real>::strongest_attraction() const {
+    double sum = 0;
+    for (const PointField& field : state_.laws.fields) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (Index i = 0; i < size(); ++i) {
+            if (state_.bodies.kind[i] == Kind::fixed || state_.bodies.trait[i].slot == field.carrier) continue;
+            const Vec3 d = to_metres(field.x - state_.bodies.motion[i].x, setting_.resolution);
+            nearest = std::min(nearest, length_squared(d));
+        }
+        sum += std::abs(field.strength) / (nearest + field.softening * field.softening);
+    }
+    return sum;
+}
+
+template <class Real>
 void Engine<Real>::check_step(const Census& census, double dt) const {
     const double gravity = length(state_.laws.gravity);
     const auto farthest = [](const Int3& x) {
@@ -43,8 +59,9 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
     const auto end_of = [&](double distance, double speed) {
         return distance + (speed + gravity * dt) * dt * setting_.resolution.per_metre;
     };
-    const double all = end_of(std::max(farthest(census.low), farthest(census.high)), census.top_speed);
-    if (state_.laws.fields.empty() && all < edge) return;
+    const double top_kick = strongest_attraction() * (0.5 * dt);
+    const double all = end_of(std::max(farthest(census.low), farthest(census.high)), census.top_speed + top_kick);
+    if (all < edge) return;
     for (Index i = 0; i < size(); ++i) {
         if (state_.bodies.kind[i] == Kind::fixed) continue;
         const double speed = length(velocity_of(state_.bodies.motion[i])) + length(attraction(state_, i)) * (0.5 * dt);

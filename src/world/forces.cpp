@@ -58,14 +58,16 @@ template <class Real>
 void Engine<Real>::attract(double duration) {
     if (state_.laws.fields.empty()) return;
     Bodies<Real>& bodies = state_.bodies;
+    Vec3 impulse;
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] == Kind::fixed) continue;
         Vec3 change = attraction(state_, i) * duration;
         if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before + change);
-        state_.books.outer_impulse.add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass));
+        impulse += (velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass);
     }
+    state_.books.outer_impulse.add(impulse);
 }
 
 template <class Real>

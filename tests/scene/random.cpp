@@ -130,8 +130,8 @@ TEST(Random, RayleighHasItsMeanSquare) {
 }
 
 TEST(Random, StreamsOfASeedDiffer) {
-    std::vector<std::uint64_t> first;
-    for (std::uint64_t i = 0; i < 100; ++i) first.push_back(Random::stream(1, i).bits());
+    std::vector<std::uint64_t> first(100);
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = Random::stream(1, i).bits();
     std::sort(first.begin(), first.end());
     EXPECT_EQ(std::adjacent_find(first.begin(), first.end()), first.end());
     EXPECT_NE(Random::stream(1, 2).bits(), Random::stream(2, 1).bits());

@@ -57,8 +57,9 @@ bool is_well_formed(const std::string& svg) {
 TEST(EnergyPlot, ShowsWhatItPromises) {
     const std::string svg = energy_plot(rows(601), "Title", "600 steps");
     EXPECT_TRUE(is_well_formed(svg));
-    for (const char* part : {">Title<", ">600 steps<", ">energy, J<", ">time, s<", ">kinetic<", ">potential<", ">total<",
-                             ">total + booked losses<", "impacts per 0.1 s", ">85 between bodies<", ">54 with walls<"}) {
+    for (const char* part :
+         {">Title<", ">600 steps<", ">energy, J<", ">time, s<", ">kinetic<", ">potential<", ">total<",
+          ">total + booked losses<", "impacts per 0.1 s", ">85 between bodies<", ">54 with walls<"}) {
         EXPECT_EQ(count_of(svg, part), 1U) << part;
     }
     EXPECT_EQ(count_of(svg, "<path"), 4U);
@@ -86,9 +87,7 @@ TEST(EnergyPlot, TextIsNoMarkup) {
     EXPECT_EQ(count_of(svg, "\x01"), 0U);
 }
 
-TEST(EnergyPlot, StaysSmallHoweverLongTheRun) {
-    EXPECT_LT(energy_plot(rows(200'000), "", "").size(), 120'000U);
-}
+TEST(EnergyPlot, StaysSmallHoweverLongTheRun) { EXPECT_LT(energy_plot(rows(200'000), "", "").size(), 120'000U); }
 
 TEST(EnergyPlot, DrawsAnySize) {
     for (const double scale : {1e-30, 1e-7, 1.0, 1e4, 1e21, 1e300}) {

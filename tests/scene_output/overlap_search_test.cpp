@@ -81,8 +81,7 @@ TEST(OverlapSearch, FindsWhatBruteForceFindsInOpenSpace) {
     std::uint64_t touching = 0;
     for (const double spread : {1.0, 3.0, 1000.0}) {
         for (const double size : {3.0, 8.0, 25.0}) {
-            const Bodies bodies =
-                random_bodies(random, 700, {-size, -size, -size}, {size, size, size}, 1 / spread, 1);
+            const Bodies bodies = random_bodies(random, 700, {-size, -size, -size}, {size, size, size}, 1 / spread, 1);
             const OverlapReport expected = brute_force(bodies, {});
             touching += expected.touching;
             expect_equal(search(OpenSpace{}, bodies), expected);
@@ -98,7 +97,8 @@ TEST(OverlapSearch, FindsWhatBruteForceFindsAcrossPeriodicFaces) {
         Vec3 periods = box.max - box.min;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const bool periodic = ((axes >> axis) & 1) != 0;
-            box.faces.at(2 * axis).kind = box.faces.at(2 * axis + 1).kind = periodic ? FaceKind::periodic : FaceKind::open;
+            box.faces.at(2 * axis).kind = box.faces.at(2 * axis + 1).kind =
+                periodic ? FaceKind::periodic : FaceKind::open;
             if (!periodic) (axis == 0 ? periods.x : axis == 1 ? periods.y : periods.z) = 0;
         }
         const Bodies bodies = random_bodies(random, 500, box.min, box.max, 0.01, 1);
@@ -163,7 +163,7 @@ TEST(OverlapSearch, LooksAtTheFacesOfABox) {
     bodies.add({5, 10.25, 5}, 0.5); // outside, 0.75 m deep
     bodies.add({5, 5, 12}, 0.5);    // above the open top
     bodies.add({5, 5, 9.9}, 0.5);
-    bodies.add({8, 8, -1}, 0);      // a point that fell through
+    bodies.add({8, 8, -1}, 0); // a point that fell through
     const OverlapReport report = search(box, bodies);
     EXPECT_EQ(report.touching, 2U);
     EXPECT_EQ(report.bodies_outside, 2U);

@@ -19,9 +19,12 @@ using scene::TimelineRow;
 std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
     std::vector<std::vector<std::string>> rows(1, {""});
     for (const char c : csv) {
-        if (c == '\n') rows.push_back({""});
-        else if (c == ',') rows.back().emplace_back();
-        else rows.back().back() += c;
+        if (c == '\n')
+            rows.push_back({""});
+        else if (c == ',')
+            rows.back().emplace_back();
+        else
+            rows.back().back() += c;
     }
     rows.pop_back();
     return rows;

@@ -231,6 +231,7 @@ TEST_P(BadInput, IdsThatNameNothingHere) {
         refuse(only, [id = bad](World& world) { world.set(id, Body{}); });
         refuse(only, [id = bad](World& world) { world.remove(id); });
         refuse({ErrorCode::unknown_body, "id"}, [id = bad](World& world) { static_cast<void>(world.held(id)); });
+        if (!bad.is_set()) continue; // an attractor that no body carries
         refuse({ErrorCode::unknown_body, "attractor.body", 2},
                [&](World& world) { world.set_attractors(attractors); });
     }
@@ -373,7 +374,7 @@ TEST(BadOptions, Numbers) {
         {"gravity", [](double v) { return WorldOptions{.gravity = {v, 0, 0}}; }, {}},
         {"gravity", [](double v) { return WorldOptions{.gravity = {0, 0, v}}; }, {}},
         {"resolution", [](double v) { return WorldOptions{.resolution = v}; },
-         {-1, 3, 0.1, 0x1p-201, 0x1p201, denormal, 1e300}},
+         {-1, 3, 0.1, 0x1p-101, 0x1p41, denormal, 1e300}},
         {"drag.linear", [](double v) { return WorldOptions{.drag = {.linear = v}}; }, {-1, -denormal}},
         {"drag.quadratic", [](double v) { return WorldOptions{.drag = {.quadratic = v}}; }, {-1, -denormal}},
         {"rest_time", [](double v) { return WorldOptions{.rest_time = v}; }, {0, -1}},
@@ -455,11 +456,11 @@ TEST(BadOptions, TheRest) {
         expect_no_world({ErrorCode::out_of_range, "min_windows"}, {.min_windows = windows}, windows);
     }
     expect_no_world({ErrorCode::out_of_range, "origin", 1}, {.resolution = 4, .origin = {8, 6, 0}}, 6);
-    expect_no_world({ErrorCode::out_of_range, "origin", 0}, {.resolution = 0x1p70, .origin = {1, 0, 0}}, 1);
+    expect_no_world({ErrorCode::out_of_range, "origin", 0}, {.resolution = 0x1p40, .origin = {1, 0, 0}}, 1);
 }
 
 TEST(BadOptions, TheOddestOnesThatAreFine) {
-    for (const double resolution : {0x1p-200, 0x1p-100, 1.0, 4.0, 0x1p62, 0x1p63, 0x1p200}) {
+    for (const double resolution : {0x1p-100, 0x1p-40, 1.0, 4.0, 0x1p40}) {
         World world({.resolution = resolution});
         EXPECT_EQ(world.resolution(), resolution);
         world.add({.radius = 0});
@@ -520,7 +521,7 @@ void expect_advice_to_help(WorldOptions options, const std::function<void(World&
 
 TEST_P(BadInput, TheResolutionAdvisedWorks) {
     const WorldOptions options{.precision = GetParam()};
-    for (const double far : {8e6, 7864320.0, -7.9e6, 9e12, -1e15, 3e17, 1e40}) {
+    for (const double far : {8e6, 7864320.0, -7.9e6, 9e12, -1e15, 3e17, 1e30}) {
         if (is_single() && std::abs(far) < 1e10) continue;
         expect_advice_to_help(options, [far](World& world) { world.add({.position = {0, far, 0}}); });
         expect_advice_to_help(options, [far](World& world) {
@@ -558,15 +559,15 @@ TEST_P(BadInput, AnImpactThatThrowsABodyOutEndsTheStep) {
     const double size = is_single() ? 7e12 : 7e6;
     for (const std::uint32_t windows : {1U, 16U}) {
         World world({.precision = GetParam(), .min_windows = windows});
-        const BodyId heavy = world.add({.velocity = {0.6 * size, 0, 0}, .mass = 1e6});
-        const BodyId light = world.add({.position = {0.06 * size, 0, 0}, .mass = 1e-6});
+        const BodyId heavy = world.add({.velocity = {0.7 * size, 0, 0}, .mass = 1e6});
+        const BodyId light = world.add({.position = {0.07 * size, 0, 0}, .mass = 1e-6});
         const StepReport& report = world.step(1);
         EXPECT_TRUE(report.edge_reached);
         EXPECT_NEAR(report.advanced, 0.1, 1e-3);
         EXPECT_EQ(report.advanced + report.behind, 1);
         EXPECT_EQ(report.impacts, 1U);
-        EXPECT_NEAR(world.get(light).velocity.x, 1.2 * size, 1e-5 * size);
-        EXPECT_NEAR(world.get(heavy).position.x, 0.06 * size, 1e-3 * size);
+        EXPECT_NEAR(world.get(light).velocity.x, 1.4 * size, 1e-5 * size);
+        EXPECT_NEAR(world.get(heavy).position.x, 0.07 * size, 1e-3 * size);
         expect_refused(world, {ErrorCode::out_of_world, "position", light.slot}, "leaves", [](World& w) { w.step(1); });
     }
 }
