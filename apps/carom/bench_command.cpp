@@ -105,6 +105,7 @@ double median(std::vector<double> values) {
 
 scene::Summary summary_of(const Plan& plan, const std::vector<Repeat>& repeats, unsigned threads) {
     std::vector<double> seconds;
+    seconds.reserve(repeats.size());
     for (const Repeat& repeat : repeats) seconds.push_back(repeat.timed.seconds);
     const Repeat& first = repeats.front();
     scene::Summary summary;

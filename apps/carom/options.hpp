@@ -17,14 +17,14 @@ class Option;
 
 namespace carom::cli {
 
-/// The program's exit codes; docs/command_line.md and `carom --help` name them.
-enum ExitCode : int {
-    success = 0,
-    failure = 1,   ///< at run time; `diff`: there is a difference
-    bad_usage = 2, ///< bad usage, scene or input file
-};
+/// \name The program's exit codes; docs/command_line.md and `carom --help` explain them
+/// @{
+inline constexpr int success = 0;
+inline constexpr int failure = 1;   ///< at run time; `diff`: there is a difference
+inline constexpr int bad_usage = 2; ///< bad usage, scene or input file
+/// @}
 
-/// A mistake of the caller; ends the program with ExitCode::bad_usage.
+/// A mistake of the caller; ends the program with bad_usage.
 class UsageError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

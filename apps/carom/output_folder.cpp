@@ -42,7 +42,6 @@ void try_to_write(const std::filesystem::path& folder) {
 
 /// The opened folder, locked; -1 where folders cannot be opened.
 int lock(const std::filesystem::path& folder) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open() is what POSIX offers
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle >= 0 && ::flock(handle, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         ::close(handle);

@@ -27,7 +27,6 @@ bool stderr_is_terminal() {
 
 std::size_t terminal_width() {
     winsize size{};
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): ioctl() is what POSIX offers
     const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     return known ? size.ws_col : 80;
 }

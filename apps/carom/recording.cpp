@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -66,7 +67,7 @@ std::optional<FieldDifference> compare(const char* field, std::uint64_t a, std::
 
 /// The first field in which two bodies differ.
 std::optional<FieldDifference> first_difference(const Body& a, const Body& b) {
-    const std::optional<FieldDifference> fields[] = {
+    const std::array fields{
         compare("position.x", a.position.x, b.position.x),
         compare("position.y", a.position.y, b.position.y),
         compare("position.z", a.position.z, b.position.z),

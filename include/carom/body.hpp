@@ -32,14 +32,14 @@ inline constexpr double infinite_mass = std::numeric_limits<double>::infinity();
 
 /// A point mass with a collision radius.
 struct Body {
-    Vec3 position{};              ///< m, relative to the world's origin; rounded to the world's resolution
-    Vec3 velocity{};              ///< m/s; zero for a static body
-    double mass = 1;              ///< kg, > 0; infinite_mass makes the body static
-    double radius = 0.5;          ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
-    double restitution = 1;       ///< e in [0, 1]; two bodies use the larger
-    double friction = 0;          ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
-    std::uint32_t material = 0;   ///< key into the world's material rules; has no other effect
-    std::uint64_t user_data = 0;  ///< yours; kept in snapshots, no part of the hash
+    Vec3 position{};             ///< m, relative to the world's origin; rounded to the world's resolution
+    Vec3 velocity{};             ///< m/s; zero for a static body
+    double mass = 1;             ///< kg, > 0; infinite_mass makes the body static
+    double radius = 0.5;         ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
+    double restitution = 1;      ///< e in [0, 1]; two bodies use the larger
+    double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
+    std::uint32_t material = 0;  ///< key into the world's material rules; has no other effect
+    std::uint64_t user_data = 0; ///< yours; kept in snapshots, no part of the hash
 };
 
 /// Columns of many bodies to read from: the primary way in. Either all bodies' values or, if empty, none: then

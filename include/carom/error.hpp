@@ -11,15 +11,15 @@ namespace carom {
 
 /// What kind of mistake an Error reports.
 enum class ErrorCode : std::uint8_t {
-    not_finite,      ///< NaN or infinity where a finite number is needed
-    out_of_range,    ///< a finite number outside the domain of its field
-    overlap,         ///< a body would overlap another body, or reach through a face of the region
-    unknown_body,    ///< an id that is stale, was never given out or belongs to another world
-    size_mismatch,   ///< arrays of one call have different lengths
-    out_of_world,    ///< a body leaves the range that the world's resolution can represent
-    bad_data,        ///< a snapshot that is truncated, altered, foreign or of another version
-    not_available,   ///< the call needs something that the world was not created with
-    input_output,    ///< a file could not be read or written
+    not_finite,    ///< NaN or infinity where a finite number is needed
+    out_of_range,  ///< a finite number outside the domain of its field
+    overlap,       ///< a body would overlap another body, or reach through a face of the region
+    unknown_body,  ///< an id that is stale, was never given out or belongs to another world
+    size_mismatch, ///< arrays of one call have different lengths
+    out_of_world,  ///< a body leaves the range that the world's resolution can represent
+    bad_data,      ///< a snapshot that is truncated, altered, foreign or of another version
+    not_available, ///< the call needs something that the world was not created with
+    input_output,  ///< a file could not be read or written
 };
 
 /// The name of a code, as it stands in this header ("out_of_range").

@@ -29,16 +29,16 @@ struct Drag {
 /// A softened point that attracts every body: acceleration strength * d / (|d|^2 + softening^2)^(3/2), d towards it.
 /// The attraction is one-way: a body that carries an attractor feels nothing of it, nor a reaction.
 struct Attractor {
-    Vec3 position{};       ///< m; not used if `body` is set
-    double strength = 0;   ///< m^3/s^2 (G M), any sign
-    double softening = 0;  ///< m, >= 0
-    BodyId body{};         ///< if set, the attractor moves with this body; it ends when the body is removed
+    Vec3 position{};      ///< m; not used if `body` is set
+    double strength = 0;  ///< m^3/s^2 (G M), any sign
+    double softening = 0; ///< m, >= 0
+    BodyId body{};        ///< if set, the attractor moves with this body; it ends when the body is removed
 };
 
 /// How a world is made.
 struct WorldOptions {
-    Vec3 gravity{};     ///< m/s^2, uniform
-    Region region{};    ///< what bounds the world; open space by default
+    Vec3 gravity{};  ///< m/s^2, uniform
+    Region region{}; ///< what bounds the world; open space by default
     Precision precision = Precision::double_precision;
     /// m, a power of two; 0 means 2^-40 m in double (a world of +-8e6 m) and 2^-20 m in single (+-8e12 m).
     double resolution = 0;
@@ -147,9 +147,9 @@ public:
     /// \name Sums over all bodies that are not static, compensated
     /// @{
     [[nodiscard]] Energy energy() const;
-    [[nodiscard]] Vec3 momentum() const;                                ///< kg m/s
-    [[nodiscard]] Vec3 angular_momentum(const Vec3& about = {}) const;  ///< kg m^2/s about a point (m)
-    [[nodiscard]] Vec3 centre_of_mass() const;                          ///< m; zero without bodies that move
+    [[nodiscard]] Vec3 momentum() const;                               ///< kg m/s
+    [[nodiscard]] Vec3 angular_momentum(const Vec3& about = {}) const; ///< kg m^2/s about a point (m)
+    [[nodiscard]] Vec3 centre_of_mass() const;                         ///< m; zero without bodies that move
     [[nodiscard]] const Ledger& ledger() const noexcept;
     /// @}
 

@@ -14,13 +14,15 @@ inline bool comes_to_rest(double e, double approach, double pressing, double res
 }
 
 /// Approach speed below which rounding of the velocities alone can make bodies seem to approach, m/s: half a unit in
-/// the last place of each component, of both bodies, along the normal.
+/// the last place of each component, of both bodies, along the normal. Below the normal range of Real an impact could
+/// leave the velocities as they are, and so happen again and again.
 template <class Real>
 double approach_rounding(const Vec3& v_a, const Vec3& v_b, const Vec3& n) {
     const auto weight = [](double a, double b) { return std::abs(a) + std::abs(b); };
-    return static_cast<double>(std::numeric_limits<Real>::epsilon()) *
-           (weight(v_a.x, v_b.x) * std::abs(n.x) + weight(v_a.y, v_b.y) * std::abs(n.y) +
-            weight(v_a.z, v_b.z) * std::abs(n.z));
+    return static_cast<double>(std::numeric_limits<Real>::min()) +
+           static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+               (weight(v_a.x, v_b.x) * std::abs(n.x) + weight(v_a.y, v_b.y) * std::abs(n.y) +
+                weight(v_a.z, v_b.z) * std::abs(n.z));
 }
 
 /// Speed (m/s) and acceleration (m/s^2) with which a body is pressed into a support.

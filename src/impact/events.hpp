@@ -11,9 +11,9 @@ namespace carom::core {
 
 /// A predicted impact; outdated as soon as one of its bodies has another version.
 struct Event {
-    double time = 0;             ///< s since the start of the step
+    double time = 0; ///< s since the start of the step
     Index a = no_index;
-    std::uint32_t b = no_index;  ///< the other body, or wall_bit | index of a wall
+    std::uint32_t b = no_index; ///< the other body, or wall_bit | index of a wall
     std::uint32_t version_a = 0;
     std::uint32_t version_b = 0; ///< 0 for a wall
 

@@ -55,8 +55,8 @@ double time_over_images(const State<Real>& state, Index a, Index b, double start
     const Meeting at_start = meeting_at(state, a, b, start);
     const Meeting at_now = now > start ? meeting_at(state, a, b, now) : at_start;
     const Meeting at_end = meeting_at(state, a, b, until);
-    const double contact = static_cast<double>(state.bodies.motion[a].radius) +
-                           static_cast<double>(state.bodies.motion[b].radius);
+    const double contact =
+        static_cast<double>(state.bodies.motion[a].radius) + static_cast<double>(state.bodies.motion[b].radius);
     Int3 most{};
     for (int axis = 0; axis < 3; ++axis) {
         if (bounds.period(axis) == 0) continue;
@@ -72,8 +72,7 @@ double time_over_images(const State<Real>& state, Index a, Index b, double start
     for (Int3 image{-most.x}; image.x <= most.x; ++image.x) {
         for (image.y = -most.y; image.y <= most.y; ++image.y) {
             for (image.z = -most.z; image.z <= most.z; ++image.z) {
-                const Int3 difference =
-                    nearest_image(bounds, state.resolution, raw, at_now.d_b - at_now.d_a, image);
+                const Int3 difference = nearest_image(bounds, state.resolution, raw, at_now.d_b - at_now.d_a, image);
                 const Vec3 delta = to_metres(difference, state.resolution) + (at_start.d_b - at_start.d_a);
                 first = std::min(first, time_to_image(state, a, b, at_start, delta, start, until));
             }

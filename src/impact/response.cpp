@@ -33,8 +33,7 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
         return goes_on ? std::min(count + 1, allowed + 1) : 0;
     };
     flight.quick_impacts = counted(true, flight.quick_impacts, quick_impacts_allowed);
-    flight.still_impacts =
-        static_cast<std::uint16_t>(counted(still, flight.still_impacts, still_impacts_allowed));
+    flight.still_impacts = static_cast<std::uint16_t>(counted(still, flight.still_impacts, still_impacts_allowed));
     flight.still_bounces =
         static_cast<std::uint16_t>(counted(still && at_support, flight.still_bounces, still_bounces_allowed));
     flight.last_impact = time;
@@ -121,8 +120,12 @@ void execute_wall(State<Real>& state, const Event& event, Outcome& outcome) {
     const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
     const Support support{event.b, state.bounds.normal(wall, m.x, d, state.resolution)};
     take_part(state, event.a, event.time);
-    const ImpactRecord impact{.offset = event.time, .a = state.bodies.trait[event.a].slot, .face = wall.face, .x = m.x,
-                              .arm = support.normal * static_cast<double>(m.radius), .normal = support.normal};
+    const ImpactRecord impact{.offset = event.time,
+                              .a = state.bodies.trait[event.a].slot,
+                              .face = wall.face,
+                              .x = m.x,
+                              .arm = support.normal * static_cast<double>(m.radius),
+                              .normal = support.normal};
     meet_support(state, event.a, support, encounter_of(state, event.a, wall), impact, outcome);
 }
 
@@ -155,8 +158,12 @@ void execute_pair(State<Real>& state, const Event& event, Outcome& outcome) {
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
     take_part(state, a, event.time);
     take_part(state, b, event.time);
-    const ImpactRecord impact{.offset = event.time, .a = bodies.trait[a].slot, .b = bodies.trait[b].slot, .x = bodies.motion[a].x,
-                              .arm = n * static_cast<double>(bodies.motion[a].radius), .normal = n};
+    const ImpactRecord impact{.offset = event.time,
+                              .a = bodies.trait[a].slot,
+                              .b = bodies.trait[b].slot,
+                              .x = bodies.motion[a].x,
+                              .arm = n * static_cast<double>(bodies.motion[a].radius),
+                              .normal = n};
     if (bodies.kind[a] == Kind::fixed) {
         meet_support(state, b, {bodies.trait[a].slot, -n}, encounter_of(state, a, b), impact, outcome);
     } else if (bodies.kind[b] == Kind::fixed) {

@@ -13,10 +13,10 @@ namespace carom::core {
 struct ImpactRecord {
     double offset = 0; ///< s since the start of the step
     std::uint32_t a = 0;
-    std::uint32_t b = 0;    ///< not used at a face
+    std::uint32_t b = 0; ///< not used at a face
     std::int32_t face = -1;
-    Int3 x{};               ///< units, of body a
-    Vec3 arm{};             ///< m, from there to the point of contact
+    Int3 x{};   ///< units, of body a
+    Vec3 arm{}; ///< m, from there to the point of contact
     Vec3 normal{};
     double impulse = 0;
     double approach_speed = 0;

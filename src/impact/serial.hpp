@@ -12,7 +12,7 @@ namespace carom::core {
 
 /// How far one window got.
 struct Progress {
-    double reached = 0;            ///< s since the start of the step
+    double reached = 0; ///< s since the start of the step
     bool work_cap_reached = false;
     bool edge_reached = false;
 };
@@ -53,7 +53,7 @@ private:
     EventQueue<Real> queue_;
     std::vector<SweptBox> covers_;
     std::vector<Index> near_walls_; ///< bodies that may meet a wall in the window
-    double impacts_per_body_ = 0; ///< in the last window
+    double impacts_per_body_ = 0;   ///< in the last window
     std::uint64_t predictions_ = 0;
     PhaseTimes seconds_{};
 };

@@ -41,7 +41,6 @@ private:
 
 int open_retrying(const std::filesystem::path& file, int flags) {
     for (;;) {
-        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open() is what POSIX offers
         const int number = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
         if (number >= 0 || errno != EINTR) return number;
     }

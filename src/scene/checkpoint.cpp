@@ -121,7 +121,7 @@ void books_fields(Archive& archive, BooksType& books) {
     archive.number(books.momentum_scale);
 }
 
-constexpr std::size_t row_size = 12 * 8;
+constexpr std::size_t row_size = 96; // 12 numbers
 
 template <class Archive, class Row>
 void row_fields(Archive& archive, Row& row) {

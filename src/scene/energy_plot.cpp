@@ -80,11 +80,11 @@ double round_up(double value) {
 
 /// Maps values of one axis, in its unit, to the picture.
 struct Scale {
-    double low;
-    double high;
-    double tick;
-    double from; ///< where `low` lies
-    double to;   ///< where `high` lies
+    double low = 0;
+    double high = 1;
+    double tick = 1;
+    double from = 0; ///< where `low` lies
+    double to = 1;   ///< where `high` lies
 
     [[nodiscard]] double at(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };

@@ -126,12 +126,14 @@ Cuboid read_cuboid(TableReader& table, const Region& region) {
 }
 
 void place_on_lattice(Entry& entry, const Cuboid& box, const Sites& sites, std::uint64_t seed) {
-    const double most = generated(entry, "radius", [&] { return largest_jitter(box, sites, entry.largest_radius()); });
-    double amount = entry.generator == Generator::lattice ? 0 : most;
+    const Vec3 most = generated(entry, "radius", [&] { return largest_jitter(box, sites, entry.largest_radius()); });
+    Vec3 amount = entry.generator == Generator::lattice ? Vec3{} : most;
     if (const auto value = entry.table.find("jitter")) {
-        amount = value->number(not_negative);
-        if (amount > most)
-            value->fail(fmt::format("must be at most {:.6g} m, or bodies could overlap, got {}", most, amount));
+        amount = value->is_array() ? value->vec3(radius_range) : value->number(radius_range) * Vec3{1, 1, 1};
+        if (amount.x > most.x || amount.y > most.y || amount.z > most.z) {
+            value->fail(fmt::format("must be at most [{:.6g}, {:.6g}, {:.6g}] m, or bodies could overlap", most.x,
+                                    most.y, most.z));
+        }
     }
     entry.bodies.position = lattice(box, sites, entry.count);
     Random random = entry.random_for(seed, Purpose::positions);

@@ -157,22 +157,23 @@ std::vector<Vec3> lattice(const Cuboid& box, const Sites& sites, std::size_t cou
     return positions;
 }
 
-double largest_jitter(const Cuboid& box, const Sites& sites, double radius) {
+Vec3 largest_jitter(const Cuboid& box, const Sites& sites, double radius) {
     const Vec3 size = box.size();
-    const double spacing = std::min({size.x / static_cast<double>(sites.x), size.y / static_cast<double>(sites.y),
-                                     size.z / static_cast<double>(sites.z)});
-    if (spacing >= 2 * radius) return 0.5 * spacing - radius;
-    throw GeneratorError(fmt::format("{} x {} x {} sites leave {:.6g} m per body, but a radius of {:.6g} m takes "
-                                     "{:.6g} m: fewer or smaller bodies, a "
-                                     "larger box, or the denser generator \"fcc\"",
-                                     sites.x, sites.y, sites.z, spacing, radius, 2 * radius));
+    const Vec3 cell{size.x / static_cast<double>(sites.x), size.y / static_cast<double>(sites.y),
+                    size.z / static_cast<double>(sites.z)};
+    const double spacing = std::min({cell.x, cell.y, cell.z});
+    if (spacing >= 2 * radius) return 0.5 * cell - Vec3{radius, radius, radius};
+    throw GeneratorError(
+        fmt::format("{} x {} x {} sites leave {:.6g} m per body, but a radius of {:.6g} m takes {:.6g} m: fewer or "
+                    "smaller bodies, a larger box, or the denser generator \"fcc\"",
+                    sites.x, sites.y, sites.z, spacing, radius, 2 * radius));
 }
 
-void jitter(std::span<Vec3> positions, double amount, Random& random) {
+void jitter(std::span<Vec3> positions, const Vec3& most, Random& random) {
     for (Vec3& position : positions) {
-        const double dx = random.uniform(-amount, amount);
-        const double dy = random.uniform(-amount, amount);
-        const double dz = random.uniform(-amount, amount);
+        const double dx = random.uniform(-most.x, most.x);
+        const double dy = random.uniform(-most.y, most.y);
+        const double dz = random.uniform(-most.z, most.z);
         position += {dx, dy, dz};
     }
 }

@@ -77,12 +77,12 @@ Sites lattice_sites(const Cuboid& box, std::size_t count);
 /// The centres of `count` of the cells that the sites cut the box into, spread evenly over all of them, x fastest.
 std::vector<Vec3> lattice(const Cuboid& box, const Sites& sites, std::size_t count);
 
-/// m: how far bodies of this radius may move from their sites along each axis and neither leave their cells nor
+/// m: how far along each axis bodies of this radius may move from their sites and neither leave their cells nor
 /// overlap. Throws GeneratorError where not even the lattice itself has room for them.
-double largest_jitter(const Cuboid& box, const Sites& sites, double radius);
+Vec3 largest_jitter(const Cuboid& box, const Sites& sites, double radius);
 
-/// Moves every position by up to `amount` (m) along each axis.
-void jitter(std::span<Vec3> positions, double amount, Random& random);
+/// Moves every position by up to so much (m) along each axis.
+void jitter(std::span<Vec3> positions, const Vec3& most, Random& random);
 
 /// `count` sites of the face-centred cubic lattice that fit into the box with their surfaces inside. The lattice
 /// constant is the largest with which that many fit; they are filled in order, x fastest, z slowest. Throws

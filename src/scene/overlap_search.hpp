@@ -55,8 +55,8 @@ private:
     };
     struct Member {
         Vec3 position;
-        double radius;
-        bool is_static;
+        double radius = 0;
+        bool is_static = false;
     };
     /// Bodies of similar radii, sorted by the bucket of their cell.
     struct Level {

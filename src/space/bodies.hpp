@@ -17,9 +17,9 @@ inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 /// What moves a body between impacts.
 enum class Kind : std::uint8_t {
-    free,   ///< uniform gravity
-    fixed,  ///< nothing: a static body
-    held,   ///< its Hold: it rests against faces or static bodies
+    free,  ///< uniform gravity
+    fixed, ///< nothing: a static body
+    held,  ///< its Hold: it rests against faces or static bodies
 };
 
 /// Counts a body's impacts in quick succession: state of the TC rule and of the jam rule.
@@ -52,13 +52,13 @@ struct Hold {
 /// What a body is beside its motion. One more cache line: an impact touches two lines of each body.
 template <class Real>
 struct Trait {
-    Real mass = 0;              ///< kg; infinity for static bodies
+    Real mass = 0; ///< kg; infinity for static bodies
     Real restitution = 0;
     Real friction = 0;
     std::uint32_t material = 0;
     std::uint32_t slot = 0;
     Flight flight{};
-    std::uint32_t version = 0;  ///< changes with every impact of the body: outdates its events
+    std::uint32_t version = 0; ///< changes with every impact of the body: outdates its events
 };
 
 /// A slot of the table of ids.
@@ -74,7 +74,7 @@ struct Bodies {
     std::vector<Kind> kind; ///< on its own: predictions read it of every neighbour, and it stays in the cache
     std::vector<Trait<Real>> trait;
     std::vector<std::uint64_t> user_data;
-    std::vector<Int3> previous;         ///< units, at the start of the last step; in use only if `interpolating`
+    std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds; ///< of the held bodies, by slot

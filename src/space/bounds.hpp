@@ -18,9 +18,9 @@ public:
 
     /// One reflecting face. A flat face lets bodies be where normal . (x - point) < 0.
     struct Wall {
-        Int3 point{};         ///< units; a point of a flat face, or the centre of the shell
-        Vec3 normal{};        ///< unit vector into the face; not used by the shell
-        int axis = -1;        ///< 0, 1, 2 if the normal is along an axis, else -1
+        Int3 point{};  ///< units; a point of a flat face, or the centre of the shell
+        Vec3 normal{}; ///< unit vector into the face; not used by the shell
+        int axis = -1; ///< 0, 1, 2 if the normal is along an axis, else -1
         Surface surface{};
         std::int32_t face = 0; ///< number in the public API
     };

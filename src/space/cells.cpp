@@ -15,9 +15,7 @@ std::uint32_t length_bin(double metres) {
 }
 
 /// A length that no member of the bin exceeds.
-double bin_end(std::uint32_t bin) {
-    return static_cast<double>(std::bit_cast<float>((bin + 1) << bin_shift));
-}
+double bin_end(std::uint32_t bin) { return static_cast<double>(std::bit_cast<float>((bin + 1) << bin_shift)); }
 
 /// The longest side, m.
 double longest(const SweptBox& box, const Cells::Axes& axes) {
@@ -172,9 +170,8 @@ void Cells::update(Index body, const SweptBox& box) {
     if (place_[body] != nothing) {
         const std::uint32_t place = place_[body];
         SweptBox& former = (place & late_bit) != 0 ? late_[place & ~late_bit].box : sorted_[place];
-        const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) {
-            return former.cell() < l.first_cell + l.cell_count();
-        });
+        const auto level = std::find_if(levels_.begin(), levels_.end(),
+                                        [&](const Level& l) { return former.cell() < l.first_cell + l.cell_count(); });
         if (stays_findable(*level, former.cell(), box)) {
             const std::uint32_t cell = former.cell();
             former = box;
@@ -204,7 +201,8 @@ void Cells::find_pairs(PairList& pairs) const {
     }
 }
 
-std::size_t Cells::rows_after(const Level& level, std::uint32_t y, std::uint32_t z, std::array<std::uint32_t, 4>& rows) {
+std::size_t Cells::rows_after(const Level& level, std::uint32_t y, std::uint32_t z,
+                              std::array<std::uint32_t, 4>& rows) {
     constexpr std::array<std::array<std::int32_t, 2>, 4> steps{{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
     const auto neighbour = [](std::uint32_t c, std::int32_t step, std::uint32_t n) {
         if (step > 0) return c + 1 == n ? 0 : c + 1;

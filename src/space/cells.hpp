@@ -13,9 +13,9 @@
 
 #include "space/bodies.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -138,9 +138,9 @@ private:
     static constexpr double whole_turn = 4294967296.0;
 
     struct Level {
-        std::array<Tick, 3> edge{};            ///< longest box of this level
-        std::array<std::uint32_t, 3> turns{};  ///< how often the grid repeats along the torus
-        std::array<std::uint32_t, 3> cells{};  ///< cells along each axis, 1 or at least 3
+        std::array<Tick, 3> edge{};           ///< longest box of this level
+        std::array<std::uint32_t, 3> turns{}; ///< how often the grid repeats along the torus
+        std::array<std::uint32_t, 3> cells{}; ///< cells along each axis, 1 or at least 3
         std::uint32_t first_cell = 0;
         std::uint32_t population = 0; ///< of build()
         std::uint32_t late = 0;       ///< boxes that came later
@@ -250,7 +250,7 @@ private:
 
     std::vector<Level> levels_;
     std::vector<SweptBox> sorted_;
-    std::vector<Cell> cells_;              ///< and one more, which is the end
+    std::vector<Cell> cells_; ///< and one more, which is the end
     std::vector<Late> late_;
     std::vector<std::uint32_t> place_;     ///< per body: where in sorted_, or late_bit | where in late_
     std::vector<std::uint32_t> histogram_; ///< of the logarithm of box lengths

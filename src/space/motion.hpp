@@ -38,12 +38,10 @@ constexpr std::int64_t& component(Int3& v, int axis) { return axis == 0 ? v.x : 
 
 /// Largest coordinate, in units of the resolution, that a body may have at the ends of a step: 2^63 - 2^59, which is
 /// 8.2e12 m at 2^-20 m and 7.9e6 m at 2^-40 m.
-inline constexpr std::int64_t world_edge =
-    std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 59) + 1;
+inline constexpr std::int64_t world_edge = std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 59) + 1;
 /// Largest coordinate inside a step, 2^63 - 2^58. Wrapped differences of such coordinates are right up to 2^63; two
 /// bodies further apart than that look at least 2^59 units apart, too far to meet within a step.
-inline constexpr std::int64_t flight_edge =
-    std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 58) + 1;
+inline constexpr std::int64_t flight_edge = std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 58) + 1;
 
 /// Resolutions lie between 2^-100 m and 2^40 m, which makes a world of 1e31 m: all lengths fit a float.
 inline constexpr int smallest_resolution_exponent = -100;
@@ -87,10 +85,10 @@ inline double metres_between(std::int64_t from, std::int64_t to, const Resolutio
 /// end of a step. One cache line in double precision.
 template <class Real>
 struct Motion {
-    Int3 x{};                ///< units of the resolution, at time t
-    double t = 0;            ///< s since the start of the step
-    Vector3<Real> v{};       ///< m/s, at time t
-    Real radius = 0;         ///< m
+    Int3 x{};          ///< units of the resolution, at time t
+    double t = 0;      ///< s since the start of the step
+    Vector3<Real> v{}; ///< m/s, at time t
+    Real radius = 0;   ///< m
 };
 
 template <class Real>

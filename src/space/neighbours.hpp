@@ -63,13 +63,14 @@ private:
 
     void make_lists(std::size_t bodies);
     void link(Index body, Index other);
-    /// Whether for_each(body) already gives `other`, whose own list of build() is shorter to search than that of a giant.
+    /// Whether for_each(body) already gives `other`, whose own list of build() is shorter to search than that of a
+    /// giant.
     [[nodiscard]] bool knows(Index body, Index other) const;
 
     Cells cells_;
     PairList pairs_;
-    std::vector<std::uint32_t> first_;       ///< per body: where its neighbours begin in list_; and the end
-    std::vector<std::uint8_t> asks_list_;    ///< per body: false once its cover was replaced
+    std::vector<std::uint32_t> first_;    ///< per body: where its neighbours begin in list_; and the end
+    std::vector<std::uint8_t> asks_list_; ///< per body: false once its cover was replaced
     std::vector<Index> list_;
     std::vector<std::uint32_t> newest_link_; ///< per body: head of its later neighbours
     std::vector<Link> links_;

@@ -68,7 +68,8 @@ Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     }
     const auto mu_a = static_cast<double>(bodies.trait[a].friction);
     const auto mu_b = static_cast<double>(bodies.trait[b].friction);
-    return {static_cast<double>(std::max(bodies.trait[a].restitution, bodies.trait[b].restitution)), std::sqrt(mu_a * mu_b)};
+    return {static_cast<double>(std::max(bodies.trait[a].restitution, bodies.trait[b].restitution)),
+            std::sqrt(mu_a * mu_b)};
 }
 
 /// How a body meets a face: the face's e and mu where it has them, else the body's.
@@ -83,9 +84,12 @@ Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall&
 template <class Real>
 Vec3 acceleration_of(const State<Real>& state, Index i) {
     switch (state.bodies.kind[i]) {
-    case Kind::free: return state.laws.gravity;
-    case Kind::held: return hold_of(state.bodies, i).acceleration;
-    case Kind::fixed: break;
+    case Kind::free:
+        return state.laws.gravity;
+    case Kind::held:
+        return hold_of(state.bodies, i).acceleration;
+    case Kind::fixed:
+        break;
     }
     return {};
 }
@@ -110,8 +114,8 @@ inline Int3 nearest_image(const Bounds& bounds, const Resolution& resolution, In
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t period = bounds.period(axis);
         if (period == 0) continue;
-        const double full = static_cast<double>(component(difference, axis)) +
-                            component(d, axis) * resolution.per_metre;
+        const double full =
+            static_cast<double>(component(difference, axis)) + component(d, axis) * resolution.per_metre;
         const auto turns = static_cast<std::int64_t>(std::rint(full / static_cast<double>(period)));
         component(difference, axis) -= (turns - component(images, axis)) * period;
     }

@@ -15,8 +15,7 @@ Census take_census(const Bodies<Real>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Motion<Real>& m = bodies.motion[i];
         census.low = {std::min(census.low.x, m.x.x), std::min(census.low.y, m.x.y), std::min(census.low.z, m.x.z)};
-        census.high = {std::max(census.high.x, m.x.x), std::max(census.high.y, m.x.y),
-                       std::max(census.high.z, m.x.z)};
+        census.high = {std::max(census.high.x, m.x.x), std::max(census.high.y, m.x.y), std::max(census.high.z, m.x.z)};
         if (bodies.kind[i] == Kind::fixed) continue;
         const Vec3 v = velocity_of(m);
         radii += static_cast<double>(m.radius);

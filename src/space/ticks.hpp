@@ -51,10 +51,10 @@ public:
 
 private:
     struct Axis {
-        std::int64_t start = 0;   ///< units
-        int shift = 0;            ///< units to ticks where the axis is not periodic
-        double per_unit = 0;      ///< ticks per unit where it is, else 0
-        double per_metre = 0;     ///< ticks per m
+        std::int64_t start = 0; ///< units
+        int shift = 0;          ///< units to ticks where the axis is not periodic
+        double per_unit = 0;    ///< ticks per unit where it is, else 0
+        double per_metre = 0;   ///< ticks per m
     };
 
     static void set_axis(const Axis& axis, std::int64_t x, double low, double high, Tick& lo, Tick& length) {

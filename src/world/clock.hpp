@@ -52,8 +52,8 @@ private:
         return sum;
     }
 
-    Sum past_;               ///< s, before the present run of equal steps
-    double interval_ = 0;    ///< s, of the present run
+    Sum past_;            ///< s, before the present run of equal steps
+    double interval_ = 0; ///< s, of the present run
     std::uint64_t repeats_ = 0;
     std::uint64_t steps_ = 0;
 };

@@ -102,10 +102,9 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
 template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
-      attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_), outcome_(other.outcome_),
-      impacts_(other.impacts_), solver_(state_), placement_(state_), last_start_(other.last_start_),
-      last_step_(other.last_step_),
-      steps_since_order_(other.steps_since_order_) {}
+      attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
+      outcome_(other.outcome_), impacts_(other.impacts_), solver_(state_), placement_(state_),
+      last_start_(other.last_start_), last_step_(other.last_step_), steps_since_order_(other.steps_since_order_) {}
 
 template <class Real>
 void Engine<Real>::set_gravity(const Vec3& gravity) {
@@ -127,7 +126,8 @@ void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
         check_finite(attractor.strength, "attractor.strength", i);
         check_not_negative(attractor.softening, "attractor.softening", i);
         if (!attractor.body.is_set()) {
-            places[i] = position_units(attractor.position, setting_.resolution, setting_.origin, "attractor.position", i);
+            places[i] =
+                position_units(attractor.position, setting_.resolution, setting_.origin, "attractor.position", i);
         } else if (!contains(attractor.body)) {
             throw Error(ErrorCode::unknown_body, "attractor.body", "there is no such body in this world", i);
         }

@@ -1,7 +1,6 @@
-#include "world/engine.hpp"
-
 #include "contact/rest.hpp"
 #include "space/checks.hpp"
+#include "world/engine.hpp"
 
 #include <carom/collision.hpp>
 
@@ -115,8 +114,7 @@ void Engine<Real>::check_radius(double radius, std::size_t place) const {
         const double period = static_cast<double>(state_.bounds.period(axis)) * setting_.resolution.metres;
         if (period == 0 || 4 * radius < period) continue;
         throw Error(ErrorCode::out_of_range, "radius",
-                    "must be less than a quarter of the periodic side of " + shown(period) + " m, got " +
-                        shown(radius),
+                    "must be less than a quarter of the periodic side of " + shown(period) + " m, got " + shown(radius),
                     place);
     }
 }
@@ -191,8 +189,9 @@ void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
     for (std::size_t i = first_new; i < end; ++i) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
         if (!other) continue;
-        const std::string name = *other >= first_new ? "body " + std::to_string(*other - first_new) + " of this call"
-                                                     : "the body in slot " + std::to_string(state_.bodies.trait[*other].slot);
+        const std::string name = *other >= first_new
+                                     ? "body " + std::to_string(*other - first_new) + " of this call"
+                                     : "the body in slot " + std::to_string(state_.bodies.trait[*other].slot);
         throw Error(ErrorCode::overlap, "position", "overlaps " + name, i - first_new);
     }
 }

@@ -1,8 +1,7 @@
-#include "world/engine.hpp"
-
 #include "contact/rest.hpp"
 #include "space/checks.hpp"
 #include "space/stopwatch.hpp"
+#include "world/engine.hpp"
 
 namespace carom::core {
 
@@ -16,8 +15,8 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
         const auto side = [&](std::int64_t low, std::int64_t high) {
             return metres_between(low, high, resolution) + 2 * census.mean_radius;
         };
-        const double volume = side(census.low.x, census.high.x) * side(census.low.y, census.high.y) *
-                              side(census.low.z, census.high.z);
+        const double volume =
+            side(census.low.x, census.high.x) * side(census.low.y, census.high.y) * side(census.low.z, census.high.z);
         const double spacing = std::cbrt(volume / static_cast<double>(census.moving));
         const double way = std::max(census.mean_radius, spacing / 4);
         // Testing all pairs once costs no more than as many windows as there are bodies.
@@ -69,8 +68,7 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
         if (end < edge) continue;
         throw Error(ErrorCode::out_of_world, "position",
                     "would leave the world of +-" + shown(edge * setting_.resolution.metres) +
-                        " m in one step (shorter ones may do); " +
-                        remedy_for(end * setting_.resolution.metres),
+                        " m in one step (shorter ones may do); " + remedy_for(end * setting_.resolution.metres),
                     state_.bodies.trait[i].slot);
     }
 }
@@ -117,8 +115,8 @@ void Engine<Real>::begin_step(double dt) {
 
 template <class Real>
 double Engine<Real>::resolve_impacts(const Census& census, double dt) {
-    const std::uint32_t windows = std::max(
-        setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
+    const std::uint32_t windows =
+        std::max(setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
     const std::uint64_t predictions_before = solver_.predictions();
     const PhaseTimes before = solver_.seconds();
     Progress progress;
@@ -227,7 +225,8 @@ void Engine<Real>::positions_at(double time, std::span<const BodyId> ids, std::s
     const double back = last_step_ > 0 ? std::clamp((end - time) / last_step_, 0.0, 1.0) : 0;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         const Int3 now = state_.bodies.motion[indices[k]].x;
-        const Int3 way = nearest_image(state_.bounds, setting_.resolution, state_.bodies.previous[indices[k]] - now, {});
+        const Int3 way =
+            nearest_image(state_.bounds, setting_.resolution, state_.bodies.previous[indices[k]] - now, {});
         const Int3 then = now + round_to_units(to_metres(way, setting_.resolution) * back, setting_.resolution);
         positions[k] = api_position(state_.bounds.wrapped(then));
     }

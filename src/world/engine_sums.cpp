@@ -1,6 +1,5 @@
-#include "world/engine.hpp"
-
 #include "space/checks.hpp"
+#include "world/engine.hpp"
 
 namespace carom::core {
 
@@ -29,8 +28,8 @@ Energy Engine<Real>::energy() const {
         if (state_.laws.gravity != Vec3{}) potential.add(-mass * dot(state_.laws.gravity, from_origin));
         for (const PointField& field : fields) {
             if (field.carrier == state_.bodies.trait[i].slot) continue;
-            const double distance_squared = length_squared(to_metres(field.x - m.x, setting_.resolution)) +
-                                            field.softening * field.softening;
+            const double distance_squared =
+                length_squared(to_metres(field.x - m.x, setting_.resolution)) + field.softening * field.softening;
             if (distance_squared > 0) potential.add(-mass * field.strength / std::sqrt(distance_squared));
         }
     });

@@ -15,15 +15,24 @@ std::string message(const std::string& field, const std::string& reason, std::si
 
 const char* to_string(ErrorCode code) noexcept {
     switch (code) {
-    case ErrorCode::not_finite: return "not_finite";
-    case ErrorCode::out_of_range: return "out_of_range";
-    case ErrorCode::overlap: return "overlap";
-    case ErrorCode::unknown_body: return "unknown_body";
-    case ErrorCode::size_mismatch: return "size_mismatch";
-    case ErrorCode::out_of_world: return "out_of_world";
-    case ErrorCode::bad_data: return "bad_data";
-    case ErrorCode::not_available: return "not_available";
-    case ErrorCode::input_output: return "input_output";
+    case ErrorCode::not_finite:
+        return "not_finite";
+    case ErrorCode::out_of_range:
+        return "out_of_range";
+    case ErrorCode::overlap:
+        return "overlap";
+    case ErrorCode::unknown_body:
+        return "unknown_body";
+    case ErrorCode::size_mismatch:
+        return "size_mismatch";
+    case ErrorCode::out_of_world:
+        return "out_of_world";
+    case ErrorCode::bad_data:
+        return "bad_data";
+    case ErrorCode::not_available:
+        return "not_available";
+    case ErrorCode::input_output:
+        return "input_output";
     }
     return "unknown";
 }

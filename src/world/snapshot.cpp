@@ -65,11 +65,20 @@ void transfer(Archive& archive, Region& region) {
     archive(kind);
     if constexpr (Archive::reading) {
         switch (kind) {
-        case 0: region = OpenSpace{}; break;
-        case 1: region = Box{}; break;
-        case 2: region = std::vector<Plane>{}; break;
-        case 3: region = Shell{}; break;
-        default: refuse("names an unknown kind of region");
+        case 0:
+            region = OpenSpace{};
+            break;
+        case 1:
+            region = Box{};
+            break;
+        case 2:
+            region = std::vector<Plane>{};
+            break;
+        case 3:
+            region = Shell{};
+            break;
+        default:
+            refuse("names an unknown kind of region");
         }
     }
     std::visit([&archive](auto& shape) { archive(shape); }, region);
@@ -87,9 +96,9 @@ void transfer(Archive& archive, Attractor& attractor) {
 
 template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
-    archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic,
-            o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.record_impacts,
-            o.least_recorded_impulse, o.interpolation);
+    archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
+            o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.record_impacts, o.least_recorded_impulse,
+            o.interpolation);
 }
 
 template <class Archive, class Real>

@@ -33,8 +33,8 @@ int main() {
             print(name, precision, hash_after(carom::scene::workload(name, bodies, precision).scene, steps));
         }
         for (const char* name : {"bouncing_balls", "newtons_cradle", "rain"}) {
-            carom::scene::Scene scene = carom::scene::load_scene(std::string("scenes/") + name + ".toml",
-                                                                 {.precision = precision});
+            carom::scene::Scene scene =
+                carom::scene::load_scene(std::string("scenes/") + name + ".toml", {.precision = precision});
             print(name, precision, hash_after(scene, steps));
         }
     }

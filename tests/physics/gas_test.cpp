@@ -75,7 +75,8 @@ TEST(Gas, TheStepDoesNotMatter) {
                 largest = std::max(largest, std::abs(other[i][k].time - reference[i][k].time));
             }
         }
-        std::printf("gas for 1 s, 60 against %d steps: same partners, times differ by %.3g s at most\n", steps, largest);
+        std::printf("gas for 1 s, 60 against %d steps: same partners, times differ by %.3g s at most\n", steps,
+                    largest);
         EXPECT_LE(largest, 1e-7);
     }
 }

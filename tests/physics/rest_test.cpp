@@ -101,8 +101,8 @@ TEST(Rest, InACornerAgainstThreeFaces) {
 TEST(Rest, InAWedgeOfSlantedPlanes) {
     WorldOptions options;
     options.gravity = {0, 0, -g};
-    options.region = std::vector<carom::Plane>{{.normal = {1, 0, 1}}, {.normal = {-1, 0, 2}}, {.normal = {0.1, 1, 1}},
-                                               {.normal = {0, -1, 1}}};
+    options.region = std::vector<carom::Plane>{
+        {.normal = {1, 0, 1}}, {.normal = {-1, 0, 2}}, {.normal = {0.1, 1, 1}}, {.normal = {0, -1, 1}}};
     World world(options);
     const BodyId ball = world.add({.position = {0.2, 0.1, 3}, .restitution = 0.5, .friction = 0.1});
     run(world, 60);
@@ -135,7 +135,8 @@ TEST(Rest, LetGoWhenGravityTurnsOrTheSupportGoes) {
     WorldOptions options;
     options.gravity = {0, 0, -g};
     World world(options);
-    const BodyId rock = world.add({.position = {0, 0, -2}, .mass = carom::infinite_mass, .radius = 2, .restitution = 0});
+    const BodyId rock =
+        world.add({.position = {0, 0, -2}, .mass = carom::infinite_mass, .radius = 2, .restitution = 0});
     const BodyId ball = world.add({.position = {0, 0, 0.5}, .restitution = 0.2});
     run(world, 1);
     EXPECT_TRUE(world.held(ball));

@@ -75,8 +75,8 @@ TEST(Symmetry, AQuarterTurnAboutZKeepsTheBits) {
     }
 }
 
-// Chaos multiplies a difference by some 10 at each impact of a body (VALIDATION: 9 to 20 impacts from 1e-14 to 1e-7), so
-// the way back is compared after few impacts each.
+// Chaos multiplies a difference by some 10 at each impact of a body (VALIDATION: 9 to 20 impacts from 1e-14 to 1e-7),
+// so the way back is compared after few impacts each.
 TEST(Symmetry, AnElasticGasRunsBackward) {
     carom::scene::Scene scene = carom::scene::workload("gas", 1000).scene;
     World world = carom::scene::make_world(scene);

@@ -97,8 +97,9 @@ TEST(Lattice, FillsSitesInOrderAndEvenly) {
 
 TEST(Lattice, LargestJitterLeavesNoOverlap) {
     const Sites sites = lattice_sites(cube10, 1000);
-    const double amount = largest_jitter(cube10, sites, 0.3);
-    EXPECT_NEAR(amount, 0.2, 1e-12);
+    const Vec3 amount = largest_jitter(cube10, sites, 0.3);
+    EXPECT_NEAR(amount.x, 0.2, 1e-12);
+    EXPECT_NEAR(largest_jitter(cube10, {10, 10, 1}, 0.3).z, 4.7, 1e-12);
     std::vector<Vec3> positions = lattice(cube10, sites, 1000);
     Random random(1);
     jitter(positions, amount, random);
@@ -115,7 +116,7 @@ TEST(Lattice, RefusesWhatDoesNotFit) {
 TEST(Lattice, HasFixedBits) {
     std::vector<Vec3> positions = lattice(flat, lattice_sites(flat, 500), 500);
     Random random(7);
-    jitter(positions, 0.1, random);
+    jitter(positions, {0.1, 0.1, 0.1}, random);
     EXPECT_EQ(hash_of<Vec3>(positions), 3672226788914731004U);
 }
 

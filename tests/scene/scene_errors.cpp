@@ -500,7 +500,7 @@ max = [8, 8, 8]
 count = 8
 jitter = 2
 )",
-     "s.toml:6: bodies[0].jitter: must be at most 1.5 m", ""},
+     "s.toml:6: bodies[0].jitter: must be at most [1.5, 1.5, 1.5] m", ""},
     {R"([[bodies]]
 generator = "fcc"
 min = [0, 0, 0]

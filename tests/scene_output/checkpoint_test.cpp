@@ -79,7 +79,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
 
 TEST(Checkpoint, IsTheSameBytesAgain) {
     const World world = small_world();
-    const World copy = world;
+    const World copy(world); // NOLINT(performance-unnecessary-copy-initialization): the copy is what is tested
     EXPECT_TRUE(scene::save_checkpoint(identity(world), progress(world), world) ==
                 scene::save_checkpoint(identity(copy), progress(copy), copy));
 }
