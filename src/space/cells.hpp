@@ -147,7 +147,8 @@ private:
 
         /// Cell coordinate of a tick: rises along each turn of the grid.
         [[nodiscard]] std::uint32_t coordinate(std::size_t axis, Tick tick) const {
-            return static_cast<std::uint32_t>((std::uint64_t{tick * turns[axis]} * cells[axis]) >> 32U);
+            const Tick turned = tick * turns[axis];
+            return static_cast<std::uint32_t>((std::uint64_t{turned} * cells[axis]) >> 32U);
         }
         [[nodiscard]] std::uint32_t cell_at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
             return first_cell + (z * cells[1] + y) * cells[0] + x;

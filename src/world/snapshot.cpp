@@ -240,7 +240,7 @@ void Engine<Real>::transfer(Archive& archive) {
 template <class Real>
 std::vector<std::byte> Engine<Real>::save() const {
     // The layout is described once, for both directions; writing changes nothing.
-    auto& self = const_cast<Engine&>(*this);
+    auto& self = const_cast<Engine&>(*this); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     Writer body;
     body(self.setting_.options, self.world_tag_, self.setting_.first_origin);
     self.transfer(body);
