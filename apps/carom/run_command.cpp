@@ -4,6 +4,7 @@
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "scene/atomic_file.hpp"
+#include "scene/digit_groups.hpp"
 #include "scene/energy_plot.hpp"
 #include "scene/impact_log.hpp"
 #include "scene/scene.hpp"
@@ -97,8 +98,9 @@ nlohmann::ordered_json to_json(const scene::Scene& scene, const Simulation& simu
 }
 
 std::string subtitle(const scene::Summary& summary) {
-    return fmt::format("{} {}, {} steps of {:.6g} s, {} precision", summary.bodies,
-                       summary.bodies == 1 ? "body" : "bodies", summary.steps, summary.dt,
+    const auto count = [](std::uint64_t number) { return scene::group_digits(std::to_string(number), "\u202f"); };
+    return fmt::format("{} {}, {} steps of {:.4g} s, {} precision", count(summary.bodies),
+                       summary.bodies == 1 ? "body" : "bodies", count(summary.steps), summary.dt,
                        scene::name_of(summary.precision));
 }
 

@@ -91,6 +91,9 @@ std::string to_text(const Summary& s) {
     return fmt::to_string(text);
 }
 
-std::string file_text(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
+std::string file_text(const nlohmann::ordered_json& json) {
+    // A scene's name is its file's, which need not be UTF-8: JSON gets a replacement character then.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 } // namespace carom::scene

@@ -330,13 +330,13 @@ bool Engine<Real>::holds_are_sound() const {
         return s.code < b.slots.size() && b.slots[s.code].index != no_index &&
                b.kind[b.slots[s.code].index] == Kind::fixed;
     };
-    for (const auto& [slot, hold] : b.holds) {
+    return std::all_of(b.holds.begin(), b.holds.end(), [&](const auto& entry) {
+        const auto& [slot, hold] = entry;
         check_finite(hold.acceleration, "hold");
         check_finite(hold.friction, "hold");
-        if (slot >= b.slots.size() || b.slots[slot].index == no_index || hold.supports.empty()) return false;
-        if (!std::all_of(hold.supports.begin(), hold.supports.end(), stands)) return false;
-    }
-    return true;
+        const bool exists = slot < b.slots.size() && b.slots[slot].index != no_index;
+        return exists && !hold.supports.empty() && std::all_of(hold.supports.begin(), hold.supports.end(), stands);
+    });
 }
 
 template <class Real>

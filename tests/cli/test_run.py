@@ -7,6 +7,7 @@ import pathlib
 import pty
 import re
 import resource
+import time
 import unittest
 import xml.dom.minidom
 
@@ -183,6 +184,7 @@ class Run(CliTest):
         try:
             while not (self.folder / "out/checkpoint.carom").exists():
                 self.assertIsNone(first.poll())
+                time.sleep(0.005)
             _, err = self.carom("run", "gas.toml", "--out", "out", expect=1)
             self.assertIn("another run", err)
         finally:

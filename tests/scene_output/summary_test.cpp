@@ -70,6 +70,12 @@ TEST(Summary, WhatWasNotMeasuredIsNull) {
     EXPECT_NE(to_text(summary).find("not searched for"), std::string::npos);
 }
 
+TEST(Summary, AnyNameCanBeWritten) {
+    nlohmann::ordered_json json;
+    json["scene"] = "caf\xe9";
+    EXPECT_EQ(scene::file_text(json), "{\n  \"scene\": \"caf\xef\xbf\xbd\"\n}\n");
+}
+
 TEST(Summary, IsReadable) {
     const std::string text = to_text(example());
     EXPECT_NE(text.find("1 234 567, single precision, 1 thread\n"), std::string::npos) << text;
