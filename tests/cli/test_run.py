@@ -204,7 +204,7 @@ class Run(CliTest):
         process.communicate()
         os.close(controller)
         self.assertRegex(text.decode(),
-                         r"\r\[[#.]+\] +\d+ %  t = .* s  .* steps/s  .* impacts  \d+:\d\d:\d\d left\x1b\[K")
+                         r"\r\[[#.]+\] +\d+ %  t = .* s  .* steps/s  .* impacts  (\d+:)?\d+:\d\d left\x1b\[K")
 
     def test_every_scene_of_the_repository_begins(self):
         for scene in sorted((ROOT / "scenes").glob("*.toml")):

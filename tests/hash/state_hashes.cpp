@@ -33,8 +33,9 @@ int main() {
             print(name, precision, hash_after(carom::scene::workload(name, bodies, precision).scene, steps));
         }
         for (const char* name : {"bouncing_balls", "newtons_cradle", "rain"}) {
-            carom::scene::Scene scene =
-                carom::scene::load_scene(std::string("scenes/") + name + ".toml", {.precision = precision});
+            carom::scene::Overrides overrides;
+            overrides.precision = precision;
+            const auto scene = carom::scene::load_scene(std::string("scenes/") + name + ".toml", overrides);
             print(name, precision, hash_after(scene, steps));
         }
     }
