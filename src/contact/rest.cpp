@@ -53,12 +53,21 @@ double friction_of(const State<Real>& state, Index body, const Support& support)
     return encounter_of(state, body, state.bodies.slots[support.code].index).friction;
 }
 
+/// Changes the velocity of a body that its supports turn, and books the impulse.
+template <class Real>
+void set_and_book(State<Real>& state, Index body, const Vec3& v) {
+    Motion<Real>& motion = state.bodies.motion[body];
+    const Vec3 before = velocity_of(motion);
+    motion.v = rounded<Real>(v);
+    state.books.outer_impulse.add((velocity_of(motion) - before) * static_cast<double>(state.bodies.trait[body].mass));
+}
+
 /// How a held body moves: along its supports, slowed by friction, which brings it to a stop but never turns it back.
 template <class Real>
 void derive_motion(State<Real>& state, Index body, Hold& hold, double duration) {
     Motion<Real>& motion = state.bodies.motion[body];
     const Vec3 v = along_supports(velocity_of(motion), hold.supports);
-    motion.v = rounded<Real>(v);
+    set_and_book(state, body, v);
     const Vec3 all = state.laws.gravity + attraction(state, body);
     const Vec3 pull = along_supports(all, hold.supports);
     const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
@@ -134,7 +143,7 @@ void settle_holds(State<Real>& state) {
             const Vec3 v = velocity_of(motion);
             const Vec3 along = v - s.normal * dot(v, s.normal);
             const double speed = length(along);
-            if (speed > 0) motion.v = rounded<Real>(along * (length(v) / speed));
+            if (speed > 0) set_and_book(state, body, along * (length(v) / speed));
         }
     }
 }

@@ -89,6 +89,7 @@ Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcom
         if (work_cap != 0 && outcome.impacts + outcome.face_impacts >= work_cap) {
             return {.reached = event.time, .work_cap_reached = true};
         }
+        if (neighbours_.crowded()) return {.reached = event.time};
         queue_.pop();
         prefetch_next();
         execute(state_, event, outcome);

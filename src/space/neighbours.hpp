@@ -51,6 +51,12 @@ public:
         cells_.prefetch(body);
     }
 
+    /// So many covers were replaced that searching among the outdated ones costs more than building anew.
+    [[nodiscard]] bool crowded() const {
+        constexpr std::size_t few = 256;
+        return cells_.late() > few + 2 * cells_.size();
+    }
+
     void spatial_order(std::vector<Index>& order) const { cells_.spatial_order(order); }
 
 private:

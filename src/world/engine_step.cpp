@@ -121,10 +121,12 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     const PhaseTimes before = solver_.seconds();
     Progress progress;
     for (std::uint32_t k = 0; k < windows; ++k) {
-        const double from = progress.reached;
         const double to = k + 1 == windows ? dt : dt * (static_cast<double>(k + 1) / windows);
-        progress = solver_.resolve(census, from, to, setting_.options.work_cap, outcome_);
-        ++report_.windows;
+        // A window ends before its time when it is worth building the lists of neighbours anew.
+        do {
+            progress = solver_.resolve(census, progress.reached, to, setting_.options.work_cap, outcome_);
+            ++report_.windows;
+        } while (progress.reached < to && !progress.work_cap_reached && !progress.edge_reached);
         if (progress.work_cap_reached || progress.edge_reached) break;
     }
     report_.work_cap_reached = progress.work_cap_reached;
