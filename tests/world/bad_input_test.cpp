@@ -148,8 +148,7 @@ TEST_P(BadInput, TheLastOfManyBodiesSpoilsTheCall) {
 TEST_P(BadInput, AcceptedOverlapExcusesNothingElse) {
     for (const BadBody& bad : bad_bodies(is_single())) {
         if (bad.refusal.code == ErrorCode::overlap) continue;
-        expect_refused(world_, bad.refusal, bad.what,
-                       [&](World& world) { world.add(bad.body, Overlap::accept); });
+        expect_refused(world_, bad.refusal, bad.what, [&](World& world) { world.add(bad.body, Overlap::accept); });
         expect_refused(world_, bad.refusal, bad.what,
                        [&](World& world) { world.set(movers_[0], bad.body, Overlap::accept); });
     }
@@ -232,8 +231,7 @@ TEST_P(BadInput, IdsThatNameNothingHere) {
         refuse(only, [id = bad](World& world) { world.remove(id); });
         refuse({ErrorCode::unknown_body, "id"}, [id = bad](World& world) { static_cast<void>(world.held(id)); });
         if (!bad.is_set()) continue; // an attractor that no body carries
-        refuse({ErrorCode::unknown_body, "attractor.body", 2},
-               [&](World& world) { world.set_attractors(attractors); });
+        refuse({ErrorCode::unknown_body, "attractor.body", 2}, [&](World& world) { world.set_attractors(attractors); });
     }
 }
 
@@ -315,8 +313,7 @@ TEST_P(BadInput, Surroundings) {
     for (const double value : {not_a_number, infinity, -infinity}) {
         refuse({ErrorCode::not_finite, "gravity"}, [=](World& world) { world.set_gravity({0, value, 0}); });
         refuse({ErrorCode::not_finite, "drag.linear"}, [=](World& world) { world.set_drag({.linear = value}); });
-        refuse({ErrorCode::not_finite, "drag.quadratic"},
-               [=](World& world) { world.set_drag({.quadratic = value}); });
+        refuse({ErrorCode::not_finite, "drag.quadratic"}, [=](World& world) { world.set_drag({.quadratic = value}); });
         refuse({ErrorCode::not_finite, "least_recorded_impulse"},
                [=](World& world) { world.set_recording(false, value); });
         refuse({ErrorCode::not_finite, "about"},
@@ -336,8 +333,7 @@ TEST_P(BadInput, Surroundings) {
         refuse({ErrorCode::out_of_range, "min_windows"}, [=](World& world) { world.set_min_windows(windows); });
     }
     const std::array<Attractor, 1> negative{Attractor{.softening = -1}};
-    refuse({ErrorCode::out_of_range, "attractor.softening", 0},
-           [&](World& world) { world.set_attractors(negative); });
+    refuse({ErrorCode::out_of_range, "attractor.softening", 0}, [&](World& world) { world.set_attractors(negative); });
     const std::array<Attractor, 1> far{Attractor{.position = {0, 0, -1e13}}};
     refuse({ErrorCode::out_of_world, "attractor.position", 0}, [&](World& world) { world.set_attractors(far); });
     constexpr std::int64_t farthest = std::numeric_limits<std::int64_t>::max();
@@ -373,7 +369,8 @@ TEST(BadOptions, Numbers) {
     const std::vector<BadOption> table{
         {"gravity", [](double v) { return WorldOptions{.gravity = {v, 0, 0}}; }, {}},
         {"gravity", [](double v) { return WorldOptions{.gravity = {0, 0, v}}; }, {}},
-        {"resolution", [](double v) { return WorldOptions{.resolution = v}; },
+        {"resolution",
+         [](double v) { return WorldOptions{.resolution = v}; },
          {-1, 3, 0.1, 0x1p-101, 0x1p41, denormal, 1e300}},
         {"drag.linear", [](double v) { return WorldOptions{.drag = {.linear = v}}; }, {-1, -denormal}},
         {"drag.quadratic", [](double v) { return WorldOptions{.drag = {.quadratic = v}}; }, {-1, -denormal}},
@@ -381,10 +378,15 @@ TEST(BadOptions, Numbers) {
         {"collapse_time", [](double v) { return WorldOptions{.collapse_time = v}; }, {0, -1}},
         {"least_recorded_impulse", [](double v) { return WorldOptions{.least_recorded_impulse = v}; }, {-1}},
         {"material_rules.restitution",
-         [](double v) { return WorldOptions{.material_rules = {{}, {.restitution = v}}}; }, {-denormal, beyond}, false,
+         [](double v) { return WorldOptions{.material_rules = {{}, {.restitution = v}}}; },
+         {-denormal, beyond},
+         false,
          1},
-        {"material_rules.friction", [](double v) { return WorldOptions{.material_rules = {{.friction = v}}}; }, {-1},
-         false, 0},
+        {"material_rules.friction",
+         [](double v) { return WorldOptions{.material_rules = {{.friction = v}}}; },
+         {-1},
+         false,
+         0},
     };
     for (const BadOption& option : table) {
         for (const double value : {not_a_number, infinity, -infinity}) {
@@ -524,9 +526,8 @@ TEST_P(BadInput, TheResolutionAdvisedWorks) {
     for (const double far : {8e6, 7864320.0, -7.9e6, 9e12, -1e15, 3e17, 1e30}) {
         if (is_single() && std::abs(far) < 1e10) continue;
         expect_advice_to_help(options, [far](World& world) { world.add({.position = {0, far, 0}}); });
-        expect_advice_to_help(options, [far](World& world) {
-            world.set_attractors(std::array{Attractor{.position = {far, 0, 0}}});
-        });
+        expect_advice_to_help(
+            options, [far](World& world) { world.set_attractors(std::array{Attractor{.position = {far, 0, 0}}}); });
     }
     expect_advice_to_help(options, [](World& world) {
         world.add({.velocity = {0, 0, 1e14}});
@@ -538,9 +539,7 @@ TEST_P(BadInput, TheResolutionAdvisedWorks) {
     });
     WorldOptions shifted = options;
     shifted.origin = {is_single() ? 8'000'000'000'000 : 7'000'000, 0, 0};
-    expect_advice_to_help(shifted, [&](World& world) {
-        world.add({.position = {is_single() ? 8e12 : 7e6, 0, 0}});
-    });
+    expect_advice_to_help(shifted, [&](World& world) { world.add({.position = {is_single() ? 8e12 : 7e6, 0, 0}}); });
 }
 
 TEST_P(BadInput, LeavingTheWorldIsRefusedBeforehand) {

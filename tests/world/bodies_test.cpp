@@ -280,7 +280,8 @@ double speed_ratio(const WorldOptions& options, const Body& like_a, const Body& 
 
 TEST_P(Bodies, MaterialRulesGoBeforeCombining) {
     WorldOptions options{.precision = GetParam()};
-    options.material_rules = {{.a = 1, .b = 2, .restitution = 0.125}, {.a = 3, .b = 3, .restitution = 0.25},
+    options.material_rules = {{.a = 1, .b = 2, .restitution = 0.125},
+                              {.a = 3, .b = 3, .restitution = 0.25},
                               {.a = 1, .b = 2, .restitution = 1}};
     const auto body = [](std::uint32_t material, double e) { return Body{.restitution = e, .material = material}; };
     const auto ratio = [&](const Body& a, const Body& b) { return speed_ratio(options, a, b); };
@@ -330,9 +331,8 @@ TEST_P(Rest, EndsWithASetVelocityPositionMassOrRadius) {
     const std::array<Vec3, 1> still{Vec3{}};
     const std::array<double, 1> one{1};
     const std::array<double, 1> half{0.5};
-    for (const ConstBodyColumns& columns :
-         {ConstBodyColumns{.velocity = still}, ConstBodyColumns{.position = place}, ConstBodyColumns{.mass = one},
-          ConstBodyColumns{.radius = half}}) {
+    for (const ConstBodyColumns& columns : {ConstBodyColumns{.velocity = still}, ConstBodyColumns{.position = place},
+                                            ConstBodyColumns{.mass = one}, ConstBodyColumns{.radius = half}}) {
         world_.set(ids, columns);
         EXPECT_FALSE(world_.held(on_floor_));
         world_.step(0.01);
@@ -398,9 +398,8 @@ TEST_P(Rest, EndsWhenStruck) {
 }
 
 TEST_P(Rest, ASetThatIsRefusedDoesNotEndIt) {
-    expect_refused(world_, {ErrorCode::overlap, "position", 0}, "into the floor", [&](World& world) {
-        world.set(std::array{on_floor_}, {.position = std::array{Vec3{0, 0, 0.3}}});
-    });
+    expect_refused(world_, {ErrorCode::overlap, "position", 0}, "into the floor",
+                   [&](World& world) { world.set(std::array{on_floor_}, {.position = std::array{Vec3{0, 0, 0.3}}}); });
     EXPECT_TRUE(world_.held(on_floor_));
 }
 
@@ -463,8 +462,7 @@ TEST_P(Bodies, ImpulsesAndVelocityChangesAdd) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 /// Expects an overlap error whose message contains a text.
-void expect_overlap(World& world, std::size_t index, const std::string& text,
-                    const std::function<void(World&)>& call) {
+void expect_overlap(World& world, std::size_t index, const std::string& text, const std::function<void(World&)>& call) {
     expect_refused(world, {ErrorCode::overlap, "position", index}, text, [&](World& w) {
         try {
             call(w);
@@ -481,9 +479,7 @@ TEST_P(Bodies, OverlapIsRefusedAtAddAndSet) {
     const BodyId b = world.add({.position = {3, 0, 0}});
     expect_overlap(world, 0, "slot 1", [](World& w) { w.add({.position = {3.9, 0, 0}}); });
     expect_overlap(world, 0, "slot 0", [&](World& w) { w.set(b, {.position = {0.5, 0.5, 0}}); });
-    expect_overlap(world, 0, "slot 1", [&](World& w) {
-        w.set(std::array{a, b}, {.radius = std::array{0.5, 2.6}});
-    });
+    expect_overlap(world, 0, "slot 1", [&](World& w) { w.set(std::array{a, b}, {.radius = std::array{0.5, 2.6}}); });
     // Bodies that change places do not meet on the way.
     world.set(std::array{a, b}, {.position = std::array{Vec3{3, 0, 0}, Vec3{0, 0, 0}}});
     EXPECT_EQ(world.get(a).position.x, 3);
@@ -521,8 +517,8 @@ TEST_P(Bodies, WallsAreRespected) {
     World sphere({.region = Shell{.radius = 2}, .precision = GetParam()});
     expect_overlap(sphere, 0, "face 0", [](World& w) { w.add({.position = {0, 1, 1.2}}); });
     sphere.add({.position = {0, 0, 1.5}});
-    World planes({.region = std::vector<Plane>{{}, {.point = {0, 0, 9}, .normal = {0, 0, -1}}},
-                  .precision = GetParam()});
+    World planes(
+        {.region = std::vector<Plane>{{}, {.point = {0, 0, 9}, .normal = {0, 0, -1}}}, .precision = GetParam()});
     expect_overlap(planes, 0, "face 1", [](World& w) { w.add({.position = {0, 0, 8.6}}); });
     // Static bodies may stand in walls and in each other.
     planes.add({.position = {0, 0, 0}, .mass = infinite_mass});
@@ -548,13 +544,9 @@ TEST_P(Bodies, TouchingIsNoOverlap) {
     world.add({.position = {0, 0, 5}});
     world.add({.position = {1, 0, 5}});
     world.add({.position = {0, 1 - 0.9 * tolerance, 5}});
-    expect_overlap(world, 0, "slot 0", [&](World& w) {
-        w.add({.position = {-1 + 2.1 * tolerance, 0, 5}});
-    });
+    expect_overlap(world, 0, "slot 0", [&](World& w) { w.add({.position = {-1 + 2.1 * tolerance, 0, 5}}); });
     world.add({.position = {10, 0, radius - 0.9 * tolerance}});
-    expect_overlap(world, 0, "face 0", [&](World& w) {
-        w.add({.position = {20, 0, radius - 2.1 * tolerance}});
-    });
+    expect_overlap(world, 0, "face 0", [&](World& w) { w.add({.position = {20, 0, radius - 2.1 * tolerance}}); });
 }
 
 TEST_P(Bodies, RefusedBodiesLeaveNoTrace) {
@@ -617,7 +609,8 @@ TEST_P(Bodies, OverlapIsFoundAsByPlainSearch) {
 TEST_P(Bodies, AcceptedPairsPartFreely) {
     World world = open_world();
     const BodyId a = world.add({.velocity = {1, 0, 0}, .restitution = 0.5});
-    const BodyId b = world.add({.position = {0.4, 0.1, 0}, .velocity = {-1, 0, 0}, .restitution = 0.5}, Overlap::accept);
+    const BodyId b =
+        world.add({.position = {0.4, 0.1, 0}, .velocity = {-1, 0, 0}, .restitution = 0.5}, Overlap::accept);
     double distance = length(world.get(b).position - world.get(a).position);
     std::uint64_t impacts = 0;
     for (int i = 0; i < 100; ++i) {
@@ -652,7 +645,8 @@ TEST_P(Bodies, CoincidentCentresGiveNumbers) {
         World world = world_with_floor(gravity);
         std::vector<BodyId> ids;
         for (const Vec3& velocity : {Vec3{}, Vec3{}, Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1e-30}}) {
-            ids.push_back(world.add({.position = {0, 0, 3}, .velocity = velocity, .restitution = 0.5}, Overlap::accept));
+            ids.push_back(
+                world.add({.position = {0, 0, 3}, .velocity = velocity, .restitution = 0.5}, Overlap::accept));
         }
         ids.push_back(world.add({.position = {0, 0, 3}, .mass = infinite_mass}, Overlap::accept));
         ids.push_back(world.add({.position = {0, 0, 3}, .radius = 0}, Overlap::accept));
@@ -674,8 +668,9 @@ TEST_P(Bodies, ABodyThatFillsItsBoxComesToAStop) {
     for (const double radius : {0.5, 0.75}) {
         for (const double e : {1.0, 0.5, 0.0}) {
             World world({.region = Box{{0, 0, 0}, {1, 10, 10}}, .precision = GetParam()});
-            const BodyId id = world.add(
-                {.position = {0.5, 5, 5}, .velocity = {1, 0.25, 0}, .radius = radius, .restitution = e}, Overlap::accept);
+            const BodyId id =
+                world.add({.position = {0.5, 5, 5}, .velocity = {1, 0.25, 0}, .radius = radius, .restitution = e},
+                          Overlap::accept);
             const StepReport& report = world.step(1);
             EXPECT_EQ(report.behind, 0);
             EXPECT_LT(report.face_impacts, 100U);

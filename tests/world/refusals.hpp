@@ -36,9 +36,7 @@ protected:
 
 inline std::string precision_name(const ::testing::TestParamInfo<Precision>& info) { return name_of(info.param); }
 
-inline auto both_precisions() {
-    return ::testing::Values(Precision::double_precision, Precision::single_precision);
-}
+inline auto both_precisions() { return ::testing::Values(Precision::double_precision, Precision::single_precision); }
 
 /// Expects that a call throws the error.
 inline void expect_error(const Refusal& refusal, const std::string& what, const std::function<void()>& call) {
