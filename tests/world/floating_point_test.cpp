@@ -22,8 +22,7 @@ public:
         std::fegetenv(&former_);
         std::fesetround(rounding);
 #ifdef __SSE2__
-        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+        _mm_setcsr(_mm_getcsr() | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
 #endif
     }
     ~OtherEnvironment() { std::fesetenv(&former_); }
@@ -38,8 +37,7 @@ private:
 struct Environment {
     int rounding = std::fegetround();
 #ifdef __SSE2__
-    unsigned flush_zero = _MM_GET_FLUSH_ZERO_MODE();
-    unsigned denormals_zero = _MM_GET_DENORMALS_ZERO_MODE();
+    unsigned denormals = _mm_getcsr() & (_MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
 #endif
 
     friend bool operator==(const Environment&, const Environment&) = default;
