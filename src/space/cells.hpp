@@ -239,9 +239,10 @@ private:
     template <class F>
     void scan_row(const Run& row, const MeetingTest& meets, F& f) const;
     void prefetch_boxes(const Run& row) const {
-        const std::uint32_t first = cells_[row.from].start;
-        __builtin_prefetch(&sorted_[first]);
-        __builtin_prefetch(&sorted_[first] + 2);
+        // The row may be empty and at the end.
+        const SweptBox* const first = sorted_.data() + cells_[row.from].start;
+        __builtin_prefetch(first);
+        __builtin_prefetch(first + 2);
     }
 
     struct Late {
