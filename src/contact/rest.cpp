@@ -53,21 +53,21 @@ double friction_of(const State<Real>& state, Index body, const Support& support)
     return encounter_of(state, body, state.bodies.slots[support.code].index).friction;
 }
 
-/// Changes the velocity of a body that its supports turn, and books the impulse.
+/// Changes the velocity of a body that its supports turn, and enters the impulse.
 template <class Real>
-void set_and_book(State<Real>& state, Index body, const Vec3& v) {
+void set_and_book(State<Real>& state, Index body, const Vec3& v, Entry& entry) {
     Motion<Real>& motion = state.bodies.motion[body];
     const Vec3 before = velocity_of(motion);
     motion.v = rounded<Real>(v);
-    state.books.outer_impulse.add((velocity_of(motion) - before) * static_cast<double>(state.bodies.trait[body].mass));
+    entry.outer_impulse += (velocity_of(motion) - before) * static_cast<double>(state.bodies.trait[body].mass);
 }
 
 /// How a held body moves: along its supports, slowed by friction, which brings it to a stop but never turns it back.
 template <class Real>
-void derive_motion(State<Real>& state, Index body, Hold& hold, double duration) {
+void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, Entry& entry) {
     Motion<Real>& motion = state.bodies.motion[body];
     const Vec3 v = along_supports(velocity_of(motion), hold.supports);
-    set_and_book(state, body, v);
+    set_and_book(state, body, v, entry);
     const Vec3 all = state.laws.gravity + attraction(state, body);
     const Vec3 pull = along_supports(all, hold.supports);
     const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
@@ -99,13 +99,13 @@ Pressure pressure_on(const State<Real>& state, Index body, const Support& suppor
 }
 
 template <class Real>
-void hold_against(State<Real>& state, Index body, const Support& support, double remaining) {
+void hold_against(State<Real>& state, Index body, const Support& support, double remaining, Entry& entry) {
     state.bodies.kind[body] = Kind::held;
     Hold& hold = state.bodies.holds[state.bodies.trait[body].slot];
     constexpr std::size_t most = 3;
     if (hold.supports.size() == most) hold.supports.erase(hold.supports.begin());
     hold.supports.push_back(support);
-    derive_motion(state, body, hold, remaining);
+    derive_motion(state, body, hold, remaining, entry);
 }
 
 template <class Real>
@@ -124,7 +124,9 @@ void refresh_holds(State<Real>& state, double duration) {
             it = bodies.holds.erase(it);
             continue;
         }
-        derive_motion(state, body, hold, duration);
+        Entry entry;
+        derive_motion(state, body, hold, duration, entry);
+        state.books.add(entry);
         ++it;
     }
 }
@@ -135,6 +137,7 @@ void settle_holds(State<Real>& state) {
     for (auto& [slot, hold] : bodies.holds) {
         const Index body = bodies.slots[slot].index;
         Motion<Real>& motion = bodies.motion[body];
+        Entry entry;
         for (Support& s : hold.supports) {
             if (s.is_wall() && state.bounds.walls()[s.wall()].axis >= 0) continue;
             s.normal = normal_of(state, body, s);
@@ -143,8 +146,9 @@ void settle_holds(State<Real>& state) {
             const Vec3 v = velocity_of(motion);
             const Vec3 along = v - s.normal * dot(v, s.normal);
             const double speed = length(along);
-            if (speed > 0) set_and_book(state, body, along * (length(v) / speed));
+            if (speed > 0) set_and_book(state, body, along * (length(v) / speed), entry);
         }
+        state.books.add(entry);
     }
 }
 
@@ -170,7 +174,7 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template Pressure pressure_on(const State<Real>&, Index, const Support&, const Vec3&);                             \
-    template void hold_against(State<Real>&, Index, const Support&, double);                                           \
+    template void hold_against(State<Real>&, Index, const Support&, double, Entry&);                                   \
     template void refresh_holds(State<Real>&, double);                                                                 \
     template void settle_holds(State<Real>&);                                                                          \
     template Vec3 kick_along_supports(const State<Real>&, Index, Vec3);                                                \

@@ -36,7 +36,7 @@ Pressure pressure_on(const State<Real>& state, Index body, const Support& suppor
 
 /// Puts a body, standing where it touches the support, to rest against it. `remaining`: s to the end of the step.
 template <class Real>
-void hold_against(State<Real>& state, Index body, const Support& support, double remaining);
+void hold_against(State<Real>& state, Index body, const Support& support, double remaining, Entry& entry);
 
 /// Start of a step: drops supports that no longer press and derives how the held bodies move in the next `duration`.
 template <class Real>

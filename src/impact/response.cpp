@@ -43,9 +43,9 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
 
 /// Brings a body to the time of its event and outdates its other events.
 template <class Real>
-void take_part(State<Real>& state, Index body, double time) {
+void take_part(State<Real>& state, Index body, double time, Entry& entry) {
     if (state.bodies.kind[body] == Kind::fixed) return;
-    advance(state, body, time);
+    advance(state, body, time, entry);
     ++state.bodies.trait[body].version;
 }
 
@@ -59,24 +59,22 @@ double mass_of(const State<Real>& state, Index body) {
     return static_cast<double>(state.bodies.trait[body].mass);
 }
 
-void apply_haste(const Haste& haste, Encounter& encounter, Outcome& outcome) {
+void apply_haste(const Haste& haste, Encounter& encounter, Occurrence& occurrence) {
     if (haste.jams) {
         encounter.restitution = 0;
     } else if (haste.collapses && encounter.restitution != 1) {
         encounter.restitution = 1;
-        ++outcome.tc_conversions;
+        occurrence.is_converted = true;
     }
 }
 
-template <class Real>
-void write_down(State<Real>& state, ImpactRecord& impact, const Response<double>& response, Outcome& outcome) {
-    state.books.lost_to_restitution.add(response.restitution_loss);
-    state.books.lost_to_friction.add(response.friction_loss);
-    ++(impact.face >= 0 ? outcome.face_impacts : outcome.impacts);
-    impact.impulse = response.impulse;
-    impact.approach_speed = response.approach_speed;
-    impact.energy_lost = response.energy_lost();
-    if (outcome.record && impact.impulse >= outcome.least_impulse) outcome.records.push_back(impact);
+void write_down(const Response<double>& response, Occurrence& occurrence) {
+    occurrence.is_impact = true;
+    occurrence.entry.lost_to_restitution += response.restitution_loss;
+    occurrence.entry.lost_to_friction += response.friction_loss;
+    occurrence.impact.impulse = response.impulse;
+    occurrence.impact.approach_speed = response.approach_speed;
+    occurrence.impact.energy_lost = response.energy_lost();
 }
 
 /// A support that a body touches at `time`: whether the body comes to rest there.
@@ -90,48 +88,49 @@ bool rests(const State<Real>& state, Index body, const Support& support, const V
 /// A body, already at its time, against something that does not move: a face or a static body. An approach that is
 /// mere rounding is no impact: the body only finds one more support, beside those it may have.
 template <class Real>
-void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, ImpactRecord impact,
-                  Outcome& outcome) {
+void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, Occurrence& occurrence) {
+    const double time = occurrence.impact.offset;
     Vec3 v = velocity_of(state.bodies.motion[body]);
     const double approach = dot(v, support.normal);
     const bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
         release(state.bodies, body);
-        const Haste haste = count_impact(state, body, impact.offset, approach, true);
+        const Haste haste = count_impact(state, body, time, approach, true);
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
-            apply_haste(haste, encounter, outcome);
+            apply_haste(haste, encounter, occurrence);
         }
         Vec3 support_velocity{};
         const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
                                                   support_velocity, encounter.restitution, encounter.friction);
         set_velocity(state, body, v);
-        state.books.outer_impulse.add(-(support.normal * response.impulse) - response.friction_impulse);
-        write_down(state, impact, response, outcome);
+        occurrence.entry.outer_impulse += -(support.normal * response.impulse) - response.friction_impulse;
+        write_down(response, occurrence);
     }
-    if (come_to_rest) hold_against(state, body, support, state.laws.kick_interval - impact.offset);
+    if (come_to_rest) hold_against(state, body, support, state.laws.kick_interval - time, occurrence.entry);
 }
 
 template <class Real>
-void execute_wall(State<Real>& state, const Event& event, Outcome& outcome) {
+void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence) {
     const Bounds::Wall& wall = state.bounds.walls()[event.wall()];
     const Motion<Real>& m = state.bodies.motion[event.a];
     const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
     const Support support{event.b, state.bounds.normal(wall, m.x, d, state.resolution)};
-    take_part(state, event.a, event.time);
-    const ImpactRecord impact{.offset = event.time,
-                              .a = state.bodies.trait[event.a].slot,
-                              .face = wall.face,
-                              .x = m.x,
-                              .arm = support.normal * static_cast<double>(m.radius),
-                              .normal = support.normal};
-    meet_support(state, event.a, support, encounter_of(state, event.a, wall), impact, outcome);
+    take_part(state, event.a, event.time, occurrence.entry);
+    occurrence.impact = {.offset = event.time,
+                         .a = state.bodies.trait[event.a].slot,
+                         .face = wall.face,
+                         .x = m.x,
+                         .arm = support.normal * static_cast<double>(m.radius),
+                         .normal = support.normal};
+    meet_support(state, event.a, support, encounter_of(state, event.a, wall), occurrence);
 }
 
 /// Two bodies that both move.
 template <class Real>
-void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, ImpactRecord impact, Outcome& outcome) {
+void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Occurrence& occurrence) {
+    const ImpactRecord& impact = occurrence.impact;
     release(state.bodies, a);
     release(state.bodies, b);
     Encounter encounter = encounter_of(state, a, b);
@@ -140,51 +139,58 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Imp
     const double approach = dot(v_a - v_b, impact.normal);
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
     const Haste haste_b = count_impact(state, b, impact.offset, approach, false);
-    apply_haste({haste_a.collapses || haste_b.collapses, haste_a.jams || haste_b.jams}, encounter, outcome);
+    apply_haste({haste_a.collapses || haste_b.collapses, haste_a.jams || haste_b.jams}, encounter, occurrence);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
     set_velocity(state, a, v_a);
     set_velocity(state, b, v_b);
-    write_down(state, impact, response, outcome);
+    write_down(response, occurrence);
 }
 
 template <class Real>
-void execute_pair(State<Real>& state, const Event& event, Outcome& outcome) {
+void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
     const bool in_order = bodies.trait[event.a].slot < bodies.trait[event.b].slot;
     const Index a = in_order ? event.a : event.b;
     const Index b = in_order ? event.b : event.a;
     const Meeting meeting = meeting_at(state, a, b, event.time);
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
-    take_part(state, a, event.time);
-    take_part(state, b, event.time);
-    const ImpactRecord impact{.offset = event.time,
-                              .a = bodies.trait[a].slot,
-                              .b = bodies.trait[b].slot,
-                              .x = bodies.motion[a].x,
-                              .arm = n * static_cast<double>(bodies.motion[a].radius),
-                              .normal = n};
+    take_part(state, a, event.time, occurrence.entry);
+    take_part(state, b, event.time, occurrence.entry);
+    occurrence.impact = {.offset = event.time,
+                         .a = bodies.trait[a].slot,
+                         .b = bodies.trait[b].slot,
+                         .x = bodies.motion[a].x,
+                         .arm = n * static_cast<double>(bodies.motion[a].radius),
+                         .normal = n};
     if (bodies.kind[a] == Kind::fixed) {
-        meet_support(state, b, {bodies.trait[a].slot, -n}, encounter_of(state, a, b), impact, outcome);
+        meet_support(state, b, {bodies.trait[a].slot, -n}, encounter_of(state, a, b), occurrence);
     } else if (bodies.kind[b] == Kind::fixed) {
-        meet_support(state, a, {bodies.trait[b].slot, n}, encounter_of(state, a, b), impact, outcome);
+        meet_support(state, a, {bodies.trait[b].slot, n}, encounter_of(state, a, b), occurrence);
     } else {
-        meet_body(state, a, b, meeting, impact, outcome);
+        meet_body(state, a, b, meeting, occurrence);
     }
 }
 
 } // namespace
 
 template <class Real>
-void execute(State<Real>& state, const Event& event, Outcome& outcome) {
+void execute(State<Real>& state, const Event& event, Occurrence& occurrence) {
     if (event.at_wall()) {
-        execute_wall(state, event, outcome);
+        execute_wall(state, event, occurrence);
     } else {
-        execute_pair(state, event, outcome);
+        execute_pair(state, event, occurrence);
     }
 }
 
-template void execute(State<float>&, const Event&, Outcome&);
-template void execute(State<double>&, const Event&, Outcome&);
+void Outcome::add(const Occurrence& occurrence) {
+    if (!occurrence.is_impact) return;
+    ++(occurrence.impact.face >= 0 ? face_impacts : impacts);
+    tc_conversions += occurrence.is_converted ? 1 : 0;
+    if (record && occurrence.impact.impulse >= least_impulse) records.push_back(occurrence.impact);
+}
+
+template void execute(State<float>&, const Event&, Occurrence&);
+template void execute(State<double>&, const Event&, Occurrence&);
 
 } // namespace carom::core

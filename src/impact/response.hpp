@@ -23,6 +23,14 @@ struct ImpactRecord {
     double energy_lost = 0;
 };
 
+/// What one event did.
+struct Occurrence {
+    ImpactRecord impact{};
+    Entry entry{};
+    bool is_impact = false;    ///< false: a body only found a support that it rests against
+    bool is_converted = false; ///< the TC rule made it elastic
+};
+
 /// What the impacts of a step add up to, and where they are written down.
 struct Outcome {
     std::uint64_t impacts = 0;
@@ -31,10 +39,13 @@ struct Outcome {
     bool record = true;
     double least_impulse = 0; ///< N s
     std::vector<ImpactRecord> records;
+
+    [[nodiscard]] std::uint64_t all_impacts() const { return impacts + face_impacts; }
+    void add(const Occurrence& occurrence);
 };
 
 /// Carries out an event that is not outdated: brings its bodies to its time and changes their velocities.
 template <class Real>
-void execute(State<Real>& state, const Event& event, Outcome& outcome);
+void execute(State<Real>& state, const Event& event, Occurrence& occurrence);
 
 } // namespace carom::core

@@ -86,13 +86,16 @@ Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcom
             queue_.pop();
             continue;
         }
-        if (work_cap != 0 && outcome.impacts + outcome.face_impacts >= work_cap) {
+        if (work_cap != 0 && outcome.all_impacts() >= work_cap) {
             return {.reached = event.time, .work_cap_reached = true};
         }
         if (neighbours_.crowded()) return {.reached = event.time};
         queue_.pop();
         prefetch_next();
-        execute(state_, event, outcome);
+        Occurrence occurrence;
+        execute(state_, event, occurrence);
+        state_.books.add(occurrence.entry);
+        outcome.add(occurrence);
         bool inside = register_motion(event.a, event.time, to);
         if (!event.at_wall()) inside = register_motion(event.b, event.time, to) && inside;
         if (!inside) return {.reached = event.time, .edge_reached = true};

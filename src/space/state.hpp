@@ -31,15 +31,28 @@ struct Laws {
     std::vector<PointField> fields{};
 };
 
+/// What one event writes into the books.
+struct Entry {
+    double lost_to_restitution = 0; ///< J
+    double lost_to_friction = 0;    ///< J
+    double mass_time = 0;           ///< kg s under uniform gravity
+    Vec3 outer_impulse{};           ///< N s, without uniform gravity's
+};
+
 /// The ledger while it is written: sums with their carries.
 struct Books {
-    std::uint64_t impacts = 0;
-    std::uint64_t face_impacts = 0;
     Sum lost_to_restitution;
     Sum lost_to_friction;
     Sum lost_to_drag;
     Sum mass_time;           ///< kg s under uniform gravity; its impulse is this times the acceleration
     VectorSum outer_impulse; ///< N s, without uniform gravity's of the present step
+
+    void add(const Entry& entry) {
+        lost_to_restitution.add(entry.lost_to_restitution);
+        lost_to_friction.add(entry.lost_to_friction);
+        mass_time.add(entry.mass_time);
+        outer_impulse.add(entry.outer_impulse);
+    }
 };
 
 template <class Real>
@@ -132,21 +145,21 @@ Vec3 separation(const State<Real>& state, Index a, Index b, const Vec3& d_a, con
     return to_metres(difference, state.resolution) + (d_b - d_a);
 }
 
-/// Books what gravity, supports and friction did to a body on its way `d` (m) over `duration` (s).
+/// Enters what gravity, supports and friction did to a body on its way `d` (m) over `duration` (s).
 template <class Real>
-void book_way(State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration) {
+void book_way(const State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration, Entry& entry) {
     const auto mass = static_cast<double>(state.bodies.trait[i].mass);
     if (state.bodies.kind[i] == Kind::free) {
-        state.books.mass_time.add(mass * duration);
+        entry.mass_time += mass * duration;
     } else {
-        state.books.outer_impulse.add(a * (mass * duration));
-        state.books.lost_to_friction.add(-mass * dot(hold_of(state.bodies, i).friction, d));
+        entry.outer_impulse += a * (mass * duration);
+        entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);
     }
 }
 
-/// Brings a body to time `s`: the one place that rounds a position.
+/// Brings a body to time `s`: the one place that rounds a position. Whether there is something for the books.
 template <class Real>
-void advance(State<Real>& state, Index i, double s) {
+bool advance(State<Real>& state, Index i, double s, Entry& entry) {
     Motion<Real>& m = state.bodies.motion[i];
     const double duration = s - m.t;
     const Vec3 a = acceleration_of(state, i);
@@ -154,12 +167,13 @@ void advance(State<Real>& state, Index i, double s) {
     m.t = s;
     if (a == Vec3{}) {
         m.x = m.x + round_to_units(v * duration, state.resolution);
-        return;
+        return false;
     }
     const Vec3 d = displacement(v, a, duration);
     m.x = m.x + round_to_units(d, state.resolution);
     m.v = rounded<Real>(v + a * duration);
-    book_way(state, i, a, d, duration);
+    book_way(state, i, a, d, duration, entry);
+    return true;
 }
 
 } // namespace carom::core

@@ -144,7 +144,8 @@ void Engine<Real>::finish_bodies(double reached) {
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] == Kind::fixed) continue;
         Trait<Real>& trait = bodies.trait[i];
-        advance(state_, i, reached);
+        Entry entry;
+        if (advance(state_, i, reached, entry)) state_.books.add(entry);
         Motion<Real>& m = bodies.motion[i];
         if (state_.bounds.any_periodic()) m.x = state_.bounds.wrapped(m.x);
         m.t = 0;
