@@ -43,6 +43,11 @@ struct StepReport {
     std::uint64_t tc_conversions = 0; ///< impacts made elastic by the TC rule against inelastic collapse
     std::uint64_t held = 0;           ///< bodies at rest against a face or a static body, at the end
     std::uint32_t windows = 0;        ///< pieces the step was cut into
+    std::uint64_t candidates = 0;     ///< pairs of bodies that a window's first look could not tell apart
+    std::uint64_t islands = 0;        ///< groups of bodies that impacts coupled, over all windows
+    std::uint64_t largest_island = 0; ///< bodies
+    std::uint64_t rounds = 0;         ///< of islands being resolved and compared, over all windows
+    std::uint64_t merges = 0;         ///< islands that were merged with another, and run again
     PhaseTimes seconds{};
 };
 

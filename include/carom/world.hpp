@@ -54,6 +54,8 @@ struct WorldOptions {
     std::uint64_t work_cap = 0;
     /// How many windows a step is cut into at least, >= 1. A tuning knob: no result depends on it.
     std::uint32_t min_windows = 1;
+    /// Resolve all impacts in one queue: slower, with the same bits. What everything faster is compared with.
+    bool serial_reference = false;
     bool record_impacts = true;
     double least_recorded_impulse = 0; ///< N s, >= 0: weaker impacts happen but are not recorded
     /// Keep each body's position at the start of the last step, for positions_at. Costs 24 bytes a body.
@@ -142,6 +144,7 @@ public:
     void set_recording(bool record_impacts, double least_recorded_impulse = 0);
     void set_work_cap(std::uint64_t work_cap);
     void set_min_windows(std::uint32_t min_windows);
+    void set_serial_reference(bool serial_reference);
     /// @}
 
     /// \name Sums over all bodies that are not static, compensated

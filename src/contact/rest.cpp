@@ -20,7 +20,8 @@ template <class Real>
 Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
     const Int3& x = state.bodies.motion[body].x;
     if (support.is_wall()) return state.bounds.normal(state.bounds.walls()[support.wall()], x, {}, state.resolution);
-    return contact_normal(separation(state, body, state.bodies.slots[support.code].index, {}, {}), Vec3{});
+    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code].index];
+    return contact_normal(separation(state, state.bodies.motion[body], other, {}, {}), Vec3{});
 }
 
 /// m between a body's surface and a support.
@@ -31,9 +32,8 @@ double gap_to(const State<Real>& state, Index body, const Support& support) {
     if (support.is_wall()) {
         return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, state.resolution);
     }
-    const Index other = state.bodies.slots[support.code].index;
-    return length(separation(state, body, other, {}, {})) - radius -
-           static_cast<double>(state.bodies.motion[other].radius);
+    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code].index];
+    return length(separation(state, m, other, {}, {})) - radius - static_cast<double>(other.radius);
 }
 
 /// 1/m, the bend of the path of a body that slides along a support; positive where it presses the body on.

@@ -22,6 +22,16 @@ struct Event {
     [[nodiscard]] std::uint32_t wall() const { return b & ~wall_bit; }
 };
 
+/// What orders events of one time: the slots of the bodies, or of the body and the wall.
+using EventIds = std::pair<std::uint32_t, std::uint32_t>;
+
+template <class Real>
+EventIds ids_of(const Bodies<Real>& bodies, const Event& event) {
+    const std::uint32_t a = bodies.trait[event.a].slot;
+    if (event.at_wall()) return {a, event.b};
+    return std::minmax(a, bodies.trait[event.b].slot);
+}
+
 /// Events by (time, ids): the order is a function of the state alone, never of the order of discovery.
 template <class Real>
 class EventQueue {
@@ -45,20 +55,18 @@ public:
     }
 
     [[nodiscard]] bool outdated(const Event& event) const {
-        if (bodies_->trait[event.a].version != event.version_a) return true;
-        return !event.at_wall() && bodies_->trait[event.b].version != event.version_b;
+        return outdated_for_a(event) || (!event.at_wall() && bodies_->trait[event.b].version != event.version_b);
+    }
+    /// Whether body a has had another impact since.
+    [[nodiscard]] bool outdated_for_a(const Event& event) const {
+        return bodies_->trait[event.a].version != event.version_a;
     }
 
 private:
     struct Later {
         const Bodies<Real>* bodies;
         bool operator()(const Event& x, const Event& y) const {
-            return x.time > y.time || (x.time == y.time && key(x) > key(y));
-        }
-        [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> key(const Event& e) const {
-            const std::uint32_t a = bodies->trait[e.a].slot;
-            if (e.at_wall()) return {a, e.b};
-            return std::minmax(a, bodies->trait[e.b].slot);
+            return x.time > y.time || (x.time == y.time && ids_of(*bodies, x) > ids_of(*bodies, y));
         }
     };
 

@@ -15,13 +15,13 @@ double pressed_pair_delay(const State<Real>& state) {
 
 /// An impact that the times of impact put at once, between bodies that touch: whether there is one, and when.
 template <class Real>
-double immediate(const State<Real>& state, Index a, Index b, const Meeting& m, const Vec3& delta, const Vec3& pull) {
+double immediate(const State<Real>& state, Kind a, Kind b, const Meeting& m, const Vec3& delta, const Vec3& pull) {
     const Vec3 n = contact_normal(delta, Vec3{});
     const double approach = dot(m.v_a - m.v_b, n);
     if (approach > approach_rounding<Real>(m.v_a, m.v_b, n)) return 0;
     const bool pressed = dot(pull, n) < 0;
     if (!pressed) return no_impact;
-    const bool support = state.bodies.kind[a] == Kind::fixed || state.bodies.kind[b] == Kind::fixed;
+    const bool support = a == Kind::fixed || b == Kind::fixed;
     return support ? 0 : pressed_pair_delay(state);
 }
 
@@ -36,27 +36,24 @@ double horizon_of(const State<Real>& state, double start, double until, bool cur
 
 /// The pair's next impact for one periodic image, s after `start`.
 template <class Real>
-double time_to_image(const State<Real>& state, Index a, Index b, const Meeting& m, const Vec3& delta, double start,
-                     double until) {
-    const Bodies<Real>& bodies = state.bodies;
-    const double contact = static_cast<double>(bodies.motion[a].radius) + static_cast<double>(bodies.motion[b].radius);
-    const Vec3 pull = bodies.kind[a] == bodies.kind[b] && bodies.kind[a] != Kind::held
-                          ? Vec3{}
-                          : acceleration_of(state, b) - acceleration_of(state, a);
+double time_to_image(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, const Meeting& m,
+                     const Vec3& delta, double start, double until) {
+    const double contact = static_cast<double>(a.motion->radius) + static_cast<double>(b.motion->radius);
+    const Vec3 pull = a.kind == b.kind && a.kind != Kind::held ? Vec3{} : b.acceleration - a.acceleration;
     const double horizon = horizon_of(state, start, until, pull != Vec3{});
     const double time = time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon);
-    return time == 0 ? immediate(state, a, b, m, delta, pull) : time;
+    return time == 0 ? immediate(state, a.kind, b.kind, m, delta, pull) : time;
 }
 
 /// The bodies' next impact over all periodic images that they may come to within the horizon.
 template <class Real>
-double time_over_images(const State<Real>& state, Index a, Index b, double start, double now, double until) {
+double time_over_images(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, double start, double now,
+                        double until) {
     const Bounds& bounds = state.bounds;
     const Meeting at_start = meeting_at(state, a, b, start);
     const Meeting at_now = now > start ? meeting_at(state, a, b, now) : at_start;
     const Meeting at_end = meeting_at(state, a, b, until);
-    const double contact =
-        static_cast<double>(state.bodies.motion[a].radius) + static_cast<double>(state.bodies.motion[b].radius);
+    const double contact = static_cast<double>(a.motion->radius) + static_cast<double>(b.motion->radius);
     Int3 most{};
     for (int axis = 0; axis < 3; ++axis) {
         if (bounds.period(axis) == 0) continue;
@@ -67,7 +64,7 @@ double time_over_images(const State<Real>& state, Index a, Index b, double start
         const double reach = std::max(travel(at_now), travel(at_end)) + contact;
         component(most, axis) = static_cast<std::int64_t>(std::min(reach / period + 0.5, 1e6));
     }
-    const Int3 raw = state.bodies.motion[b].x - state.bodies.motion[a].x;
+    const Int3 raw = b.motion->x - a.motion->x;
     double first = no_impact;
     for (Int3 image{-most.x}; image.x <= most.x; ++image.x) {
         for (image.y = -most.y; image.y <= most.y; ++image.y) {
@@ -81,11 +78,10 @@ double time_over_images(const State<Real>& state, Index a, Index b, double start
     return first;
 }
 
-/// Two bodies in free flight, which see no acceleration in each other: the usual case, without detours.
+/// Two bodies in free flight, which see no acceleration in each other: the usual case, without detours. Swapping them
+/// only turns signs round: no bit depends on their order.
 template <class Real>
-double predict_free_pair(const State<Real>& state, Index a, Index b, double until) {
-    const Motion<Real>& m_a = state.bodies.motion[a];
-    const Motion<Real>& m_b = state.bodies.motion[b];
+double predict_free_pair(const State<Real>& state, const Motion<Real>& m_a, const Motion<Real>& m_b, double until) {
     const double start = std::max(m_a.t, m_b.t);
     Meeting m;
     m.v_a = velocity_of(m_a);
@@ -101,26 +97,34 @@ double predict_free_pair(const State<Real>& state, Index a, Index b, double unti
     }
     const double contact = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
     const double time = time_to_spheres(m.delta, m.v_b - m.v_a, contact, horizon_of(state, start, until, false));
-    return start + (time == 0 ? immediate(state, a, b, m, m.delta, Vec3{}) : time);
+    return start + (time == 0 ? immediate(state, Kind::free, Kind::free, m, m.delta, Vec3{}) : time);
 }
 
 } // namespace
 
 template <class Real>
-double predict_pair(const State<Real>& state, Index i, Index j, double now, double until) {
-    const Bodies<Real>& bodies = state.bodies;
-    if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
-    // Swapping two free bodies only turns signs round: no bit depends on their order.
-    const bool both_free = bodies.kind[i] == Kind::free && bodies.kind[j] == Kind::free;
-    if (both_free && !state.bounds.any_periodic()) return predict_free_pair(state, i, j, until);
-    const bool in_order = bodies.trait[i].slot < bodies.trait[j].slot;
-    const Index a = in_order ? i : j;
-    const Index b = in_order ? j : i;
-    if (rests_on(bodies, a, bodies.trait[b].slot) || rests_on(bodies, b, bodies.trait[a].slot)) return no_impact;
-    const double start = std::max(bodies.motion[a].t, bodies.motion[b].t);
+double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<Real>& j, double now, double until) {
+    const bool both_free = i.kind == Kind::free && j.kind == Kind::free;
+    if (both_free && !state.bounds.any_periodic()) return predict_free_pair(state, *i.motion, *j.motion, until);
+    const bool in_order = i.slot < j.slot;
+    const Path<Real>& a = in_order ? i : j;
+    const Path<Real>& b = in_order ? j : i;
+    const double start = std::max(a.motion->t, b.motion->t);
     if (state.bounds.any_periodic()) return start + time_over_images(state, a, b, start, now, until);
     const Meeting m = meeting_at(state, a, b, start);
     return start + time_to_image(state, a, b, m, m.delta, start, until);
+}
+
+template <class Real>
+double predict_pair(const State<Real>& state, Index i, Index j, double now, double until) {
+    const Bodies<Real>& bodies = state.bodies;
+    const bool both_free = bodies.kind[i] == Kind::free && bodies.kind[j] == Kind::free;
+    if (both_free && !state.bounds.any_periodic()) {
+        return predict_free_pair(state, bodies.motion[i], bodies.motion[j], until);
+    }
+    if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
+    if (rests_on(bodies, i, bodies.trait[j].slot) || rests_on(bodies, j, bodies.trait[i].slot)) return no_impact;
+    return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
 
 template <class Real>
@@ -150,9 +154,25 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, do
     return pressed ? m.t : no_impact;
 }
 
+template <class Real>
+bool stays_in_world(const State<Real>& state, Index body, double duration) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const Vec3 v = velocity_of(m);
+    const Vec3 acceleration = acceleration_of(state, body);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double path = (std::abs(component(v, axis)) + std::abs(component(acceleration, axis)) * duration) *
+                            duration * state.resolution.per_metre;
+        const double end = std::abs(static_cast<double>(component(m.x, axis))) + path;
+        if (!(end < static_cast<double>(flight_edge))) return false;
+    }
+    return true;
+}
+
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template double predict_pair(const State<Real>&, Index, Index, double, double);                                    \
-    template double predict_wall(const State<Real>&, Index, std::uint32_t, double);
+    template double predict_paths(const State<Real>&, const Path<Real>&, const Path<Real>&, double, double);           \
+    template double predict_wall(const State<Real>&, Index, std::uint32_t, double);                                    \
+    template bool stays_in_world(const State<Real>&, Index, double);
 CAROM_INSTANTIATE(float)
 CAROM_INSTANTIATE(double)
 #undef CAROM_INSTANTIATE

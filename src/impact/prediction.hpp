@@ -3,11 +3,26 @@
 #pragma once
 
 #include "contact/rest.hpp"
+#include "impact/events.hpp"
 #include "space/state.hpp"
 
 #include <carom/time_of_impact.hpp>
 
 namespace carom::core {
+
+/// A body's motion as others see it.
+template <class Real>
+struct Path {
+    const Motion<Real>* motion = nullptr;
+    Vec3 acceleration{}; ///< m/s^2
+    Kind kind = Kind::free;
+    std::uint32_t slot = 0;
+};
+
+template <class Real>
+Path<Real> path_of(const State<Real>& state, Index i) {
+    return {&state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i], state.bodies.trait[i].slot};
+}
 
 /// Two bodies seen at one time.
 struct Meeting {
@@ -19,17 +34,15 @@ struct Meeting {
 };
 
 template <class Real>
-Meeting meeting_at(const State<Real>& state, Index a, Index b, double time) {
-    const Motion<Real>& m_a = state.bodies.motion[a];
-    const Motion<Real>& m_b = state.bodies.motion[b];
-    const Vec3 a_a = acceleration_of(state, a);
-    const Vec3 a_b = acceleration_of(state, b);
+Meeting meeting_at(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, double time) {
+    const Motion<Real>& m_a = *a.motion;
+    const Motion<Real>& m_b = *b.motion;
     Meeting m;
-    m.d_a = displacement(velocity_of(m_a), a_a, time - m_a.t);
-    m.d_b = displacement(velocity_of(m_b), a_b, time - m_b.t);
-    m.v_a = velocity_of(m_a) + a_a * (time - m_a.t);
-    m.v_b = velocity_of(m_b) + a_b * (time - m_b.t);
-    m.delta = separation(state, a, b, m.d_a, m.d_b);
+    m.d_a = displacement(velocity_of(m_a), a.acceleration, time - m_a.t);
+    m.d_b = displacement(velocity_of(m_b), b.acceleration, time - m_b.t);
+    m.v_a = velocity_of(m_a) + a.acceleration * (time - m_a.t);
+    m.v_b = velocity_of(m_b) + b.acceleration * (time - m_b.t);
+    m.delta = separation(state, m_a, m_b, m.d_a, m.d_b);
     return m;
 }
 
@@ -38,9 +51,39 @@ Meeting meeting_at(const State<Real>& state, Index a, Index b, double time) {
 template <class Real>
 double predict_pair(const State<Real>& state, Index i, Index j, double now, double until);
 
+/// The same for the paths of two bodies of which neither rests on the other.
+template <class Real>
+double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<Real>& j, double now, double until);
+
 /// When a body meets one wall of the region next, s since the start of the step, or no_impact if not before `until`.
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, double until);
+
+/// m, how far from its place a body and its surface may get along any axis until `until`.
+template <class Real>
+double reach_of(const Motion<Real>& m, const Vec3& acceleration, double until) {
+    const auto sum = [](const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+    const double duration = until - m.t;
+    return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
+}
+
+/// Calls f(event) for every wall that a body meets until `until`.
+template <class Real, class F>
+void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {
+    if (state.bodies.kind[body] == Kind::fixed) return;
+    const Motion<Real>& m = state.bodies.motion[body];
+    const double reach = reach_of(m, acceleration_of(state, body), until);
+    if (!state.bounds.may_touch(m.x, reach, state.resolution)) return;
+    const auto count = static_cast<std::uint32_t>(state.bounds.walls().size());
+    for (std::uint32_t wall = 0; wall < count; ++wall) {
+        const double time = predict_wall(state, body, wall, until);
+        if (time <= until) f(Event{time, body, Event::wall_bit | wall, state.bodies.trait[body].version, 0});
+    }
+}
+
+/// Whether a body stays within the world for `duration` s unless something strikes it.
+template <class Real>
+bool stays_in_world(const State<Real>& state, Index body, double duration);
 
 /// Whether a body already rests against a support.
 template <class Real>

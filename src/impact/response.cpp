@@ -153,7 +153,7 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
     const bool in_order = bodies.trait[event.a].slot < bodies.trait[event.b].slot;
     const Index a = in_order ? event.a : event.b;
     const Index b = in_order ? event.b : event.a;
-    const Meeting meeting = meeting_at(state, a, b, event.time);
+    const Meeting meeting = meeting_at(state, path_of(state, a), path_of(state, b), event.time);
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
     take_part(state, a, event.time, occurrence.entry);
     take_part(state, b, event.time, occurrence.entry);

@@ -6,28 +6,6 @@ namespace carom::core {
 
 namespace {
 
-/// Whether a body stays within the world on a path of constant acceleration for `duration` s.
-template <class Real>
-bool stays_in_world(const State<Real>& state, Index body, const Vec3& acceleration, double duration) {
-    const Motion<Real>& m = state.bodies.motion[body];
-    const Vec3 v = velocity_of(m);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double path = (std::abs(component(v, axis)) + std::abs(component(acceleration, axis)) * duration) *
-                            duration * state.resolution.per_metre;
-        const double end = std::abs(static_cast<double>(component(m.x, axis))) + path;
-        if (!(end < static_cast<double>(flight_edge))) return false;
-    }
-    return true;
-}
-
-/// m, how far from its place a body and its surface may get along any axis until `to`.
-template <class Real>
-double reach_of(const Motion<Real>& m, const Vec3& acceleration, double to) {
-    const auto sum = [](const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-    const double duration = to - m.t;
-    return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
-}
-
 /// The length (m) that ticks are made for: a body and its way through the window.
 double tick_scale(const Census& census, double duration, const Resolution& resolution) {
     return std::max(2 * (census.mean_radius + census.typical_speed * duration), resolution.metres);
@@ -40,14 +18,14 @@ Progress SerialSolver<Real>::resolve(const Census& census, double from, double t
                                      Outcome& outcome) {
     Stopwatch watch;
     find_neighbours(census, from, to);
-    seconds_.cells += watch.lap();
+    costs_.seconds.cells += watch.lap();
     queue_.clear();
     predict_first(from, to);
-    seconds_.pairs += watch.lap();
+    costs_.seconds.pairs += watch.lap();
     const std::uint64_t before = outcome.impacts;
     const Progress progress = run_queue(to, work_cap, outcome);
     impacts_per_body_ = static_cast<double>(outcome.impacts - before) / static_cast<double>(state_.bodies.size() + 1);
-    seconds_.impacts += watch.lap();
+    costs_.seconds.impacts += watch.lap();
     return progress;
 }
 
@@ -133,9 +111,9 @@ void SerialSolver<Real>::prefetch_neighbours(Index body) const {
 template <class Real>
 bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     if (state_.bodies.kind[body] == Kind::fixed) return true;
-    const Vec3 a = acceleration_of(state_, body);
     // To the end of the step, not of the window: no result may depend on windows.
-    if (!stays_in_world(state_, body, a, state_.laws.kick_interval - now)) return false;
+    if (!stays_in_world(state_, body, state_.laws.kick_interval - now)) return false;
+    const Vec3 a = acceleration_of(state_, body);
     const Motion<Real>& m = state_.bodies.motion[body];
     if (neighbours_.covers(body, swept_box(ticks_, m, a, now, to))) return true;
     neighbours_.cover_anew(body, swept_box(ticks_, m, a, now, to, slack_),
@@ -155,21 +133,14 @@ void SerialSolver<Real>::predict_again(Index body, Index except, double now, dou
 
 template <class Real>
 void SerialSolver<Real>::predict(Index a, Index b, double now, double to) {
-    ++predictions_;
+    ++costs_.predictions;
     const double time = predict_pair(state_, a, b, now, to);
     if (time <= to) queue_.push({time, a, b, state_.bodies.trait[a].version, state_.bodies.trait[b].version});
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_walls(Index body, double to) {
-    if (state_.bodies.kind[body] == Kind::fixed) return;
-    const Motion<Real>& m = state_.bodies.motion[body];
-    if (!state_.bounds.may_touch(m.x, reach_of(m, acceleration_of(state_, body), to), state_.resolution)) return;
-    const auto count = static_cast<std::uint32_t>(state_.bounds.walls().size());
-    for (std::uint32_t wall = 0; wall < count; ++wall) {
-        const double time = predict_wall(state_, body, wall, to);
-        if (time <= to) queue_.push({time, body, Event::wall_bit | wall, state_.bodies.trait[body].version, 0});
-    }
+    for_each_wall_event(state_, body, to, [this](const Event& event) { queue_.push(event); });
 }
 
 template class SerialSolver<float>;

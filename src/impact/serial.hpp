@@ -8,7 +8,15 @@
 #include "space/neighbours.hpp"
 #include "space/ticks.hpp"
 
+#include <utility>
+
 namespace carom::core {
+
+/// What resolving impacts cost.
+struct SolverCosts {
+    std::uint64_t predictions = 0; ///< times of impact computed
+    PhaseTimes seconds{};          ///< of wall-clock time
+};
 
 /// How far one window got.
 struct Progress {
@@ -27,10 +35,8 @@ public:
     Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
 
     [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
-    /// Times of impact computed so far.
-    [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
-    /// Wall-clock seconds spent so far.
-    [[nodiscard]] const PhaseTimes& seconds() const { return seconds_; }
+    /// Of all windows since it was asked last.
+    SolverCosts take_costs() { return std::exchange(costs_, {}); }
 
 private:
     void find_neighbours(const Census& census, double from, double to);
@@ -54,8 +60,7 @@ private:
     std::vector<SweptBox> covers_;
     std::vector<Index> near_walls_; ///< bodies that may meet a wall in the window
     double impacts_per_body_ = 0;   ///< in the last window
-    std::uint64_t predictions_ = 0;
-    PhaseTimes seconds_{};
+    SolverCosts costs_;
 };
 
 } // namespace carom::core

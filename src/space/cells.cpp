@@ -28,6 +28,26 @@ constexpr double cells_per_body = 4;
 
 } // namespace
 
+bool SweptBox::holds(const SweptBox& inner) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint64_t offset = inner.lo[k] - lo[k];
+        if (length[k] != 0xffffffffU && offset + inner.length[k] > length[k]) return false;
+    }
+    return true;
+}
+
+SweptBox SweptBox::joined(const SweptBox& other) const {
+    SweptBox both = *this;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto offset = std::int64_t{std::bit_cast<std::int32_t>(other.lo[k] - lo[k])};
+        const std::int64_t low = std::min<std::int64_t>(0, offset);
+        const std::int64_t high = std::max<std::int64_t>(length[k], offset + other.length[k]);
+        both.lo[k] = lo[k] + static_cast<Tick>(low);
+        both.length[k] = static_cast<Tick>(std::min<std::int64_t>(high - low, 0xffffffff));
+    }
+    return both;
+}
+
 Cells::Span Cells::span_of(const Level& level, std::size_t axis, Tick lo, std::uint64_t length) {
     const std::uint32_t cells = level.cells[axis];
     const Tick start = lo * level.turns[axis];

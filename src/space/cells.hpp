@@ -40,6 +40,11 @@ struct alignas(32) SweptBox {
     /// Number of the cell among all cells of all levels.
     [[nodiscard]] std::uint32_t cell() const { return length[tag]; }
 
+    /// Whether all of `inner` lies in this box.
+    [[nodiscard]] bool holds(const SweptBox& inner) const;
+    /// A box that holds both.
+    [[nodiscard]] SweptBox joined(const SweptBox& other) const;
+
     void set_body(Index body) { lo[tag] = body; }
     void set_outdated() { lo[tag] |= outdated_bit; }
     void set_cell(std::uint32_t cell) { length[tag] = cell; }
@@ -89,6 +94,17 @@ public:
         return storage_.data() + size_;
     }
     void take(const Pair* end) { size_ = static_cast<std::size_t>(end - storage_.data()); }
+
+    template <class Predicate>
+    void keep_if(Predicate&& keep) {
+        Pair* out = storage_.data();
+        for (std::size_t k = 0; k < size_; ++k) {
+            const Pair pair = storage_[k];
+            *out = pair;
+            out += keep(pair.first, pair.second) ? 1 : 0;
+        }
+        take(out);
+    }
 
 private:
     std::vector<Pair> storage_;

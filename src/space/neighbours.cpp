@@ -4,28 +4,6 @@
 
 namespace carom::core {
 
-namespace {
-
-/// Whether `outer` holds all of `inner`.
-bool holds(const SweptBox& outer, const SweptBox& inner) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint64_t offset = inner.lo[k] - outer.lo[k];
-        if (outer.length[k] != 0xffffffffU && offset + inner.length[k] > outer.length[k]) return false;
-    }
-    return true;
-}
-
-} // namespace
-
-void Neighbours::build(std::vector<SweptBox>& covers, const Cells::Axes& axes) {
-    cells_.build(covers, axes);
-    pairs_.clear();
-    cells_.find_pairs(pairs_);
-    make_lists(covers.size());
-    newest_link_.assign(covers.size(), nothing);
-    links_.clear();
-}
-
 void Neighbours::make_lists(std::size_t bodies) {
     first_.assign(bodies + 1, 0);
     for (const auto& [a, b] : pairs()) {
@@ -41,6 +19,8 @@ void Neighbours::make_lists(std::size_t bodies) {
         list_[--first_[a]] = b;
         list_[--first_[b]] = a;
     }
+    newest_link_.assign(bodies, nothing);
+    links_.clear();
 }
 
 void Neighbours::link(Index body, Index other) {
@@ -57,7 +37,4 @@ bool Neighbours::knows(Index body, Index other) const {
     const auto end = list_.begin() + first_[other + 1];
     return std::find(first, end, body) != end;
 }
-
-bool Neighbours::covers(Index body, const SweptBox& box) const { return holds(cells_.box_of(body), box); }
-
 } // namespace carom::core

@@ -16,13 +16,25 @@ public:
     using Pair = Cells::Pair;
 
     /// `covers[i]` is that of body i.
-    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes);
+    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes) {
+        build(covers, axes, [](Index, Index) { return true; });
+    }
+    /// The same with only those pairs of which `keep(a, b)` is true.
+    template <class Predicate>
+    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes, Predicate&& keep) {
+        cells_.build(covers, axes);
+        pairs_.clear();
+        cells_.find_pairs(pairs_);
+        pairs_.keep_if(keep);
+        make_lists(covers.size());
+    }
 
     /// Pairs of neighbours as of build(), once or more often.
     [[nodiscard]] std::span<const Pair> pairs() const { return pairs_.pairs(); }
 
+    [[nodiscard]] const SweptBox& cover_of(Index body) const { return cells_.box_of(body); }
     /// Whether `box` lies in the cover of a body.
-    [[nodiscard]] bool covers(Index body, const SweptBox& box) const;
+    [[nodiscard]] bool covers(Index body, const SweptBox& box) const { return cover_of(body).holds(box); }
     /// Replaces the cover of a body and finds its neighbours again. Those of which `looks_up(other)` is false will
     /// never be asked for their own neighbours.
     template <class Predicate>

@@ -39,7 +39,8 @@ std::optional<Index> Placement<Real>::overlapping(Index i, Index end) {
         if (other == i || other >= end || (first && *first <= other)) return;
         if (bodies.kind[i] == Kind::fixed && bodies.kind[other] == Kind::fixed) return;
         const auto other_radius = static_cast<double>(bodies.motion[other].radius);
-        const double gap = length(separation(state_, i, other, {}, {})) - (radius + other_radius);
+        const double gap = length(separation(state_, state_.bodies.motion[i], state_.bodies.motion[other], {}, {})) -
+                           (radius + other_radius);
         if (gap < -touching_tolerance(state_, 2 * std::min(radius, other_radius))) first = other;
     });
     return first;

@@ -135,10 +135,11 @@ inline Int3 nearest_image(const Bounds& bounds, const Resolution& resolution, In
     return difference;
 }
 
-/// m from body a to body b at time `s` when they have moved by `d_a` and `d_b` (m) since their own times.
+/// m from body a to body b when they have moved by `d_a` and `d_b` (m) since their own times.
 template <class Real>
-Vec3 separation(const State<Real>& state, Index a, Index b, const Vec3& d_a, const Vec3& d_b) {
-    Int3 difference = state.bodies.motion[b].x - state.bodies.motion[a].x;
+Vec3 separation(const State<Real>& state, const Motion<Real>& a, const Motion<Real>& b, const Vec3& d_a,
+                const Vec3& d_b) {
+    Int3 difference = b.x - a.x;
     if (state.bounds.any_periodic()) {
         difference = nearest_image(state.bounds, state.resolution, difference, d_b - d_a);
     }

@@ -13,6 +13,7 @@ Census take_census(const Bodies<Real>& bodies) {
     double speeds = 0;
     double top_squared = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
+        prefetch_ahead(bodies.motion.data() + i);
         const Motion<Real>& m = bodies.motion[i];
         census.low = {std::min(census.low.x, m.x.x), std::min(census.low.y, m.x.y), std::min(census.low.z, m.x.z)};
         census.high = {std::max(census.high.x, m.x.x), std::max(census.high.y, m.x.y), std::max(census.high.z, m.x.z)};

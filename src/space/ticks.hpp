@@ -46,6 +46,14 @@ public:
         return box;
     }
 
+    /// A position, to within a tick along each axis.
+    [[nodiscard]] std::array<Tick, 3> of(const Int3& x) const {
+        return {base(axes_[0], x.x), base(axes_[1], x.y), base(axes_[2], x.z)};
+    }
+    [[nodiscard]] std::array<double, 3> metres_per_tick() const {
+        return {1 / axes_[0].per_metre, 1 / axes_[1].per_metre, 1 / axes_[2].per_metre};
+    }
+
     /// The axes, and how far the bodies' positions extend along each.
     [[nodiscard]] Cells::Axes axes(const Census& census) const;
 

@@ -86,7 +86,8 @@ Setting checked_setting(WorldOptions options) {
 
 template <class Real>
 Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
-    : setting_(std::move(setting)), world_tag_(world_tag), solver_(state_), placement_(state_) {
+    : setting_(std::move(setting)), world_tag_(world_tag), serial_(state_), islands_(state_, serial_),
+      placement_(state_) {
     const WorldOptions& options = setting_.options;
     state_.resolution = setting_.resolution;
     state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
@@ -103,8 +104,9 @@ template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
-      outcome_(other.outcome_), impacts_(other.impacts_), solver_(state_), placement_(state_),
-      last_start_(other.last_start_), last_step_(other.last_step_), steps_since_order_(other.steps_since_order_) {}
+      outcome_(other.outcome_), impacts_(other.impacts_), serial_(state_), islands_(state_, serial_),
+      placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_),
+      steps_since_order_(other.steps_since_order_) {}
 
 template <class Real>
 void Engine<Real>::set_gravity(const Vec3& gravity) {
@@ -151,6 +153,13 @@ void Engine<Real>::set_recording(bool record_impacts, double least_recorded_impu
     check_not_negative(least_recorded_impulse, "least_recorded_impulse");
     setting_.options.record_impacts = outcome_.record = record_impacts;
     setting_.options.least_recorded_impulse = outcome_.least_impulse = least_recorded_impulse;
+}
+
+template <class Real>
+void Engine<Real>::set_serial_reference(bool serial_reference) {
+    setting_.options.serial_reference = serial_reference;
+    // Meanwhile the one that rests does not see where bodies go.
+    islands_.forget();
 }
 
 template <class Real>

@@ -2,7 +2,7 @@
 /// The world behind carom::World, for one precision.
 #pragma once
 
-#include "impact/serial.hpp"
+#include "impact/islands.hpp"
 #include "space/placement.hpp"
 #include "space/state.hpp"
 #include "world/clock.hpp"
@@ -65,6 +65,7 @@ public:
     void set_recording(bool record_impacts, double least_recorded_impulse);
     void set_work_cap(std::uint64_t work_cap) { setting_.options.work_cap = work_cap; }
     void set_min_windows(std::uint32_t min_windows);
+    void set_serial_reference(bool serial_reference);
 
     // engine_sums.cpp
     [[nodiscard]] Energy energy() const;
@@ -110,6 +111,8 @@ private:
     void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
+    Progress resolve_window(const Census& census, double from, double to);
+    void report_solvers();
     void finish_bodies(double reached);
     void keep_spatial_order();
     void finish_step(double dt, double reached);
@@ -142,11 +145,12 @@ private:
     StepReport report_;
     Outcome outcome_;
     std::vector<Impact> impacts_;
-    SerialSolver<Real> solver_;
+    SerialSolver<Real> serial_;
+    IslandSolver<Real> islands_;
     Placement<Real> placement_;
     double last_start_ = 0;               ///< s, when the last step began
     double last_step_ = 0;                ///< s, how far it came
-    std::uint32_t steps_since_order_ = 0; ///< since the bodies were last put in spatial order
+    std::uint32_t steps_since_order_ = 0; ///< since the serial solver's bodies were last put in spatial order
 };
 
 } // namespace carom::core

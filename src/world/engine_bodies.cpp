@@ -224,6 +224,7 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         if (element(columns.velocity, k, Vec3{}) == Vec3{}) continue;
         throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
     }
+    islands_.forget();
     const std::size_t first_new = size();
     constexpr std::size_t most_bodies = 0x7fffffffU;
     if (count > most_bodies - first_new) {
@@ -291,6 +292,7 @@ void Engine<Real>::check_moved(const std::vector<Index>& indices) {
 template <class Real>
 void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap) {
     if (columns.position.empty() && columns.radius.empty() && columns.mass.empty()) return;
+    islands_.forget();
     Bodies<Real>& bodies = state_.bodies;
     const std::vector<Int3> positions = positions_of(columns);
     struct Former {
@@ -370,6 +372,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         throw Error(ErrorCode::unknown_body, "id", "the body is named twice",
                     static_cast<std::size_t>(ids.rend() - last) - 1);
     }
+    islands_.forget();
     for (const BodyId id : ids) {
         const Index index = state_.bodies.slots[id.slot].index;
         if (state_.bodies.kind[index] == Kind::fixed) release_from(state_.bodies, id.slot);

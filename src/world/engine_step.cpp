@@ -117,31 +117,51 @@ template <class Real>
 double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     const std::uint32_t windows =
         std::max(setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
-    const std::uint64_t predictions_before = solver_.predictions();
-    const PhaseTimes before = solver_.seconds();
     Progress progress;
     for (std::uint32_t k = 0; k < windows; ++k) {
         const double to = k + 1 == windows ? dt : dt * (static_cast<double>(k + 1) / windows);
         // A window ends before its time when it is worth building the lists of neighbours anew.
         do {
-            progress = solver_.resolve(census, progress.reached, to, setting_.options.work_cap, outcome_);
+            progress = resolve_window(census, progress.reached, to);
             ++report_.windows;
         } while (progress.reached < to && !progress.work_cap_reached && !progress.edge_reached);
         if (progress.work_cap_reached || progress.edge_reached) break;
     }
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
-    report_.predictions = solver_.predictions() - predictions_before;
-    report_.seconds.cells += solver_.seconds().cells - before.cells;
-    report_.seconds.pairs += solver_.seconds().pairs - before.pairs;
-    report_.seconds.impacts += solver_.seconds().impacts - before.impacts;
+    report_solvers();
     return progress.reached;
+}
+
+template <class Real>
+Progress Engine<Real>::resolve_window(const Census& census, double from, double to) {
+    const std::uint64_t work_cap = setting_.options.work_cap;
+    if (setting_.options.serial_reference) return serial_.resolve(census, from, to, work_cap, outcome_);
+    return islands_.resolve(census, from, to, work_cap, outcome_);
+}
+
+template <class Real>
+void Engine<Real>::report_solvers() {
+    const IslandCounts counts = islands_.take_counts();
+    report_.candidates = counts.candidates;
+    report_.islands = counts.islands;
+    report_.largest_island = counts.largest;
+    report_.rounds = counts.rounds;
+    report_.merges = counts.merges;
+    for (const SolverCosts& costs : {serial_.take_costs(), islands_.take_costs()}) {
+        report_.predictions += costs.predictions;
+        report_.seconds.cells += costs.seconds.cells;
+        report_.seconds.pairs += costs.seconds.pairs;
+        report_.seconds.impacts += costs.seconds.impacts;
+    }
 }
 
 template <class Real>
 void Engine<Real>::finish_bodies(double reached) {
     Bodies<Real>& bodies = state_.bodies;
     for (Index i = 0; i < bodies.size(); ++i) {
+        prefetch_ahead(bodies.motion.data() + i);
+        prefetch_ahead(bodies.trait.data() + i);
         if (bodies.kind[i] == Kind::fixed) continue;
         Trait<Real>& trait = bodies.trait[i];
         Entry entry;
@@ -159,9 +179,9 @@ template <class Real>
 void Engine<Real>::keep_spatial_order() {
     // Rarely enough to cost little, often enough that neighbours stay near in memory.
     constexpr std::uint32_t steps_between = 16;
-    if (steps_since_order_++ % steps_between != 0) return;
+    if (!setting_.options.serial_reference || steps_since_order_++ % steps_between != 0) return;
     std::vector<Index> order;
-    solver_.neighbours().spatial_order(order);
+    serial_.neighbours().spatial_order(order);
     reorder(state_.bodies, order);
 }
 

@@ -97,8 +97,8 @@ void transfer(Archive& archive, Attractor& attractor) {
 template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
     archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
-            o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.record_impacts, o.least_recorded_impulse,
-            o.interpolation);
+            o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference, o.record_impacts,
+            o.least_recorded_impulse, o.interpolation);
 }
 
 template <class Archive, class Real>

@@ -214,6 +214,10 @@ void World::set_work_cap(std::uint64_t work_cap) {
     impl_->pass([work_cap](auto& engine) { engine.set_work_cap(work_cap); });
 }
 
+void World::set_serial_reference(bool serial_reference) {
+    impl_->pass([serial_reference](auto& engine) { engine.set_serial_reference(serial_reference); });
+}
+
 void World::set_min_windows(std::uint32_t min_windows) {
     impl_->pass([min_windows](auto& engine) { engine.set_min_windows(min_windows); });
 }
