@@ -156,6 +156,7 @@ bool IslandSolver<Real>::run_to_fixpoint() {
             for (Member& member : members_) restore(member);
             return false;
         }
+        cover_strays();
         for (const std::uint32_t id : pending_) {
             if (islands_[id].finished) compare(id);
         }
@@ -175,6 +176,7 @@ void IslandSolver<Real>::run(std::uint32_t id) {
     current_ = id;
     queue_.clear();
     for (std::uint32_t k = island.events.begin; k < island.events.end; ++k) queue_.push(island_events_[k]);
+    own_strays_ = strays_.size();
     island.log.begin = static_cast<std::uint32_t>(log_.size());
     island.finished = true;
     while (!queue_.empty() && island.finished) {
@@ -233,11 +235,9 @@ bool IslandSolver<Real>::execute_event(const Event& event) {
     if (two_move) note_change(event.b);
     log_ids_.push_back(ids_of(state_.bodies, event));
     execute(state_, event, log_.emplace_back());
-    const bool covered = follow(event.a, event) && (!two_move || follow(event.b, event));
-    if (!covered) return false;
-    predict_again(event.a, no_index, event.time);
-    if (two_move) predict_again(event.b, event.a, event.time);
-    return true;
+    follow(event.a, no_index, event.time);
+    if (two_move) follow(event.b, event.a, event.time);
+    return !abandoned_;
 }
 
 /// Keeps the leg that an impact is about to end, if no member keeps it already.
@@ -253,28 +253,29 @@ void IslandSolver<Real>::note_change(Index body) {
     member.changed = true;
 }
 
-/// Looks where a body goes after an impact; false if it leaves its cover, or the world.
+/// Predicts what a body meets after an impact.
 template <class Real>
-bool IslandSolver<Real>::follow(Index body, const Event& event) {
+void IslandSolver<Real>::follow(Index body, Index except, double now) {
     // To the end of the step, not of the window: no result may depend on windows.
-    if (!stays_in_world(state_, body, state_.laws.kick_interval - event.time)) {
+    if (!stays_in_world(state_, body, state_.laws.kick_interval - now)) {
         abandoned_ = true;
-        return false;
+        return;
     }
-    if (vicinity_.follow(body, members_[member_[body]].before, to_)) return true;
-    strays_.push_back({current_, body, vicinity_.wide_cover(body, to_)});
-    return false;
-}
-
-template <class Real>
-void IslandSolver<Real>::predict_again(Index body, Index except, double now) {
+    const bool covered = vicinity_.follow(body, members_[member_[body]].before, to_);
     const Ball ball = vicinity_.ball_of(body, to_);
-    vicinity_.for_each(body, [&](Index other) {
-        if (other == except || !vicinity_.may_meet(ball, vicinity_.first_ball(other))) return;
+    const auto look = [&](Index other) {
+        if (other == body || other == except || !vicinity_.may_meet(ball, vicinity_.first_ball(other))) return;
         const double time = predict(body, other, now);
         if (time > to_) return;
         queue_.push({time, body, other, state_.bodies.trait[body].version, state_.bodies.trait[other].version});
-    });
+    };
+    if (covered) {
+        vicinity_.for_each(body, look);
+    } else {
+        strays_.push_back({body, {state_.bodies.motion[body], acceleration_of(state_, body)}});
+        vicinity_.for_each_along(strays_.back().path, to_, look);
+    }
+    for (std::size_t k = own_strays_; k < strays_.size(); ++k) look(strays_[k].body);
     for_each_wall_event(state_, body, to_, [this](const Event& event) { queue_.push(event); });
 }
 
@@ -297,6 +298,13 @@ Path<Real> IslandSolver<Real>::former_path(const Member& member) const {
 // ---------------------------------------------------------------------------------------------------------------------
 // Comparing islands
 // ---------------------------------------------------------------------------------------------------------------------
+
+/// Lets everybody see the bodies that left their covers.
+template <class Real>
+void IslandSolver<Real>::cover_strays() {
+    for (const Stray& stray : strays_) vicinity_.cover_along(stray.body, stray.path, stray.path.motion.t, to_);
+    strays_.clear();
+}
 
 /// Finds the islands one of whose bodies, on a new path, meets one of this island's on its own new path.
 template <class Real>
@@ -343,7 +351,7 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
 // Merging islands
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Merges the islands that meet, widens the covers of strays, and leaves what is to run again in pending_.
+/// Merges the islands that meet, and leaves what is to run again in pending_.
 template <class Real>
 void IslandSolver<Real>::merge() {
     pending_.clear();
@@ -351,13 +359,11 @@ void IslandSolver<Real>::merge() {
         unite(meeting.island, member_[meeting.other] == none ? island_of_single(meeting.other)
                                                              : members_[member_[meeting.other]].island);
     }
-    for (const Stray& stray : strays_) unite(stray.island, stray.island);
     std::sort(pending_.begin(), pending_.end(), [this](std::uint32_t a, std::uint32_t b) {
         return std::pair(island_root(a), a) < std::pair(island_root(b), b);
     });
     pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
     for (const std::uint32_t id : pending_) restart(id);
-    for (const Stray& stray : strays_) vicinity_.widen_cover(stray.body, stray.cover);
     const std::vector<std::uint32_t> restarted = std::exchange(pending_, {});
     std::vector<std::uint32_t> group;
     for (std::size_t k = 0; k < restarted.size(); ++k) {
@@ -367,10 +373,9 @@ void IslandSolver<Real>::merge() {
         group.clear();
     }
     meetings_.clear();
-    strays_.clear();
 }
 
-/// Marks two islands, or one, to be run again as one.
+/// Marks two islands to be run again as one.
 template <class Real>
 void IslandSolver<Real>::unite(std::uint32_t a, std::uint32_t b) {
     for (const std::uint32_t id : {a, b}) {
@@ -411,10 +416,6 @@ void IslandSolver<Real>::restart(std::uint32_t id) {
 template <class Real>
 void IslandSolver<Real>::join_group(const std::vector<std::uint32_t>& group) {
     for (const std::uint32_t id : group) islands_[id].parent = none;
-    if (group.size() == 1) {
-        pending_.push_back(group.front());
-        return;
-    }
     counts_.merges += group.size() - 1;
     const auto joined = static_cast<std::uint32_t>(islands_.size());
     Island all{.roster = {static_cast<std::uint32_t>(roster_.size()), 0},

@@ -81,15 +81,15 @@ private:
         std::uint32_t parent = none; ///< while islands are merged: one that this belongs to; itself if it stays
     };
 
-    /// Why an island could not finish.
+    /// An island, and a body outside that it meets.
     struct Meeting {
         std::uint32_t island = none;
-        Index other = no_index; ///< a body outside that it meets
+        Index other = no_index;
     };
+    /// A body that an impact made leave its cover.
     struct Stray {
-        std::uint32_t island = none;
-        Index body = no_index; ///< one of its own that leaves its cover
-        SweptBox cover{};      ///< where to
+        Index body = no_index;
+        Flown<Real> path{};
     };
 
     void predict_first();
@@ -107,11 +107,11 @@ private:
     [[nodiscard]] bool is_own(Index body) const;
     bool execute_event(const Event& event);
     void note_change(Index body);
-    bool follow(Index body, const Event& event);
-    void predict_again(Index body, Index except, double now);
+    void follow(Index body, Index except, double now);
     [[nodiscard]] double predict(Index body, Index other, double now);
     [[nodiscard]] Path<Real> former_path(const Member& member) const;
 
+    void cover_strays();
     void compare(std::uint32_t id);
     [[nodiscard]] bool paths_meet(const Member& a, const Member& b) const;
 
@@ -152,7 +152,8 @@ private:
     std::vector<Leg> legs_;
     std::vector<Hold> former_holds_;
     std::vector<Meeting> meetings_;
-    std::vector<Stray> strays_;
+    std::vector<Stray> strays_;  ///< of this round
+    std::size_t own_strays_ = 0; ///< where the running island's begin
 
     /// The place of an occurrence in the order of all.
     struct Place {

@@ -36,18 +36,6 @@ bool SweptBox::holds(const SweptBox& inner) const {
     return true;
 }
 
-SweptBox SweptBox::joined(const SweptBox& other) const {
-    SweptBox both = *this;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto offset = std::int64_t{std::bit_cast<std::int32_t>(other.lo[k] - lo[k])};
-        const std::int64_t low = std::min<std::int64_t>(0, offset);
-        const std::int64_t high = std::max<std::int64_t>(length[k], offset + other.length[k]);
-        both.lo[k] = lo[k] + static_cast<Tick>(low);
-        both.length[k] = static_cast<Tick>(std::min<std::int64_t>(high - low, 0xffffffff));
-    }
-    return both;
-}
-
 Cells::Span Cells::span_of(const Level& level, std::size_t axis, Tick lo, std::uint64_t length) {
     const std::uint32_t cells = level.cells[axis];
     const Tick start = lo * level.turns[axis];
@@ -201,14 +189,19 @@ void Cells::update(Index body, const SweptBox& box) {
         }
         former.set_outdated();
     }
+    place_[body] = late_bit | add_late(body, box);
+}
+
+void Cells::add(Index body, const SweptBox& box) { add_late(body, box); }
+
+std::uint32_t Cells::add_late(Index body, const SweptBox& box) {
     Level& level = levels_[level_of(box)];
     ++level.late;
     const std::uint32_t cell = home_cell(level, box);
     late_.push_back({box, cells_[cell].late});
     late_.back().box.set_body(body);
     late_.back().box.set_cell(cell);
-    cells_[cell].late = static_cast<std::uint32_t>(late_.size() - 1);
-    place_[body] = late_bit | cells_[cell].late;
+    return cells_[cell].late = static_cast<std::uint32_t>(late_.size() - 1);
 }
 
 void Cells::find_pairs(PairList& pairs) const {

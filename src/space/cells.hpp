@@ -42,8 +42,6 @@ struct alignas(32) SweptBox {
 
     /// Whether all of `inner` lies in this box.
     [[nodiscard]] bool holds(const SweptBox& inner) const;
-    /// A box that holds both.
-    [[nodiscard]] SweptBox joined(const SweptBox& other) const;
 
     void set_body(Index body) { lo[tag] = body; }
     void set_outdated() { lo[tag] |= outdated_bit; }
@@ -127,6 +125,8 @@ public:
     void build(std::vector<SweptBox>& boxes, const Axes& axes);
     /// Replaces the box of a body; a new body must have the next index.
     void update(Index body, const SweptBox& box);
+    /// Registers a body with one more box, until the next build().
+    void add(Index body, const SweptBox& box);
 
     /// Every pair of bodies whose boxes of build() meet, once or more often. To be called before any update().
     void find_pairs(PairList& pairs) const;
@@ -204,6 +204,7 @@ private:
     [[nodiscard]] std::size_t level_of(const SweptBox& box) const;
     static std::uint32_t home_cell(const Level& level, const SweptBox& box);
     void sort_into_cells(std::vector<SweptBox>& boxes);
+    std::uint32_t add_late(Index body, const SweptBox& box);
     [[nodiscard]] static bool stays_findable(const Level& level, std::uint32_t cell, const SweptBox& box);
 
     /// From one place to before another.

@@ -32,9 +32,8 @@ public:
     /// Pairs of neighbours as of build(), once or more often.
     [[nodiscard]] std::span<const Pair> pairs() const { return pairs_.pairs(); }
 
-    [[nodiscard]] const SweptBox& cover_of(Index body) const { return cells_.box_of(body); }
     /// Whether `box` lies in the cover of a body.
-    [[nodiscard]] bool covers(Index body, const SweptBox& box) const { return cover_of(body).holds(box); }
+    [[nodiscard]] bool covers(Index body, const SweptBox& box) const { return cells_.box_of(body).holds(box); }
     /// Replaces the cover of a body and finds its neighbours again. Those of which `looks_up(other)` is false will
     /// never be asked for their own neighbours.
     template <class Predicate>
@@ -42,11 +41,18 @@ public:
         cells_.update(body, cover);
         asks_list_[body] = 0;
         newest_link_[body] = nothing;
-        cells_.for_each_meeting(cover, [&](Index other) {
-            if (other == body) return;
-            link(body, other);
-            if (looks_up(other) && !knows(other, body)) link(other, body);
-        });
+        link_all(body, cover, looks_up);
+    }
+    /// Covers a body with one more box.
+    template <class Predicate>
+    void extend_cover(Index body, const SweptBox& cover, Predicate&& looks_up) {
+        cells_.add(body, cover);
+        link_all(body, cover, looks_up);
+    }
+    /// Calls f(other) for every body whose cover meets the box, once or more often.
+    template <class F>
+    void for_each_meeting(const SweptBox& box, F&& f) const {
+        cells_.for_each_meeting(box, f);
     }
 
     /// Calls f(other) for every neighbour, once or more often.
@@ -80,6 +86,14 @@ private:
     };
 
     void make_lists(std::size_t bodies);
+    template <class Predicate>
+    void link_all(Index body, const SweptBox& cover, Predicate&& looks_up) {
+        cells_.for_each_meeting(cover, [&](Index other) {
+            if (other == body) return;
+            link(body, other);
+            if (looks_up(other) && !knows(other, body)) link(other, body);
+        });
+    }
     void link(Index body, Index other);
     /// Whether for_each(body) already gives `other`, whose own list of build() is shorter to search than that of a
     /// giant.

@@ -32,12 +32,20 @@ double Vicinity<Real>::path_length(Index body, double from, double to) const {
 template <class Real>
 void Vicinity<Real>::prepare(const Census& census, double from, double to) {
     gravity_ = length(state_.laws.gravity);
-    if (is_valid_ && !neighbours_.crowded()) {
+    if (!update(from, to)) {
+        build(census, from, to);
         start_bodies(from, to);
-        if (cover_strays(from, to)) return;
     }
-    build(census, from, to);
+    std::sort(covered_anew_.begin(), covered_anew_.end());
+    covered_anew_.erase(std::unique(covered_anew_.begin(), covered_anew_.end()), covered_anew_.end());
+}
+
+/// Carries the lists over from the last window; false if they had better be built anew.
+template <class Real>
+bool Vicinity<Real>::update(double from, double to) {
+    if (!is_valid_ || neighbours_.crowded()) return false;
     start_bodies(from, to);
+    return cover_strays(from, to);
 }
 
 /// Takes the room that every body needs in the window.
@@ -70,7 +78,7 @@ bool Vicinity<Real>::cover_strays(double from, double to) {
     constexpr std::size_t part = 32;
     if (strays_.size() > few + state_.bodies.size() / part) return false;
     for (const Index i : strays_) {
-        cover_anew(i, make_cover(i, from, to));
+        cover_anew(i, from, to);
         use_room(i, path_length(i, from, to));
     }
     return true;
@@ -106,8 +114,8 @@ void Vicinity<Real>::build(const Census& census, double from, double to) {
     const Bodies<Real>& bodies = state_.bodies;
     choose_horizon(census, to - from);
     keep_spatial_order();
-    ticks_ = Ticks(state_.bounds, state_.resolution,
-                   std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres));
+    typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
+    ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
     balls_ = Balls(ticks_);
     covered_anew_.clear();
     covers_.resize(bodies.size());
@@ -115,19 +123,21 @@ void Vicinity<Real>::build(const Census& census, double from, double to) {
     first_balls_.resize(bodies.size());
     for (Index i = 0; i < bodies.size(); ++i) {
         prefetch_ahead(bodies.motion.data() + i);
-        covers_[i] = make_cover(i, from, to);
-        constexpr double anywhere = 1e30;
-        const double room = room_[i] < 0 ? anywhere : static_cast<double>(room_[i]) * (1 + 2 * room_for_rounding);
+        covers_[i] = make_cover(i, to);
+        const double room = static_cast<double>(std::max(room_[i], 0.0F)) * (1 + 2 * room_for_rounding);
         first_balls_[i] = balls_.ball(bodies.motion[i].x, radius_of(i) + room);
     }
     neighbours_.build(covers_, ticks_.axes(census),
                       [this](Index a, Index b) { return balls_.may_meet(first_balls_[a], first_balls_[b]); });
     is_valid_ = true;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (room_[i] < 0) cover_along(i, {bodies.motion[i], acceleration_of(state_, i)}, from, to);
+    }
 }
 
-/// The box of a body's cover; sets its room.
+/// The box of a body's ball; sets its room.
 template <class Real>
-SweptBox Vicinity<Real>::make_cover(Index body, double from, double to) {
+SweptBox Vicinity<Real>::make_cover(Index body, double to) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
     if (state_.bodies.kind[body] == Kind::fixed) {
@@ -139,16 +149,26 @@ SweptBox Vicinity<Real>::make_cover(Index body, double from, double to) {
     const double room = std::clamp(length * windows_ahead_, typical_room_, most_rooms * typical_room_);
     if (length > room) {
         room_[body] = -1;
-        return swept_box(ticks_, m, acceleration_of(state_, body), from, to, typical_room_ / 2);
+        return ticks_.box(m.x, {}, {}, radius);
     }
     room_[body] = static_cast<float>(room * (1 - room_for_rounding));
     return ticks_.box(m.x, Vec3{-room, -room, -room}, Vec3{room, room, room}, radius);
 }
 
 template <class Real>
-void Vicinity<Real>::cover_anew(Index body, const SweptBox& cover) {
+void Vicinity<Real>::cover_anew(Index body, double from, double to) {
     covered_anew_.push_back(body);
-    neighbours_.cover_anew(body, cover, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    neighbours_.cover_anew(body, make_cover(body, to),
+                           [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    if (room_[body] < 0) cover_along(body, {state_.bodies.motion[body], acceleration_of(state_, body)}, from, to);
+}
+
+template <class Real>
+void Vicinity<Real>::cover_along(Index body, const Flown<Real>& path, double from, double to) {
+    covered_anew_.push_back(body);
+    for_each_piece(path, from, to, [&](const SweptBox& box) {
+        neighbours_.extend_cover(body, box, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    });
 }
 
 /// m, how far a body may be at any time until `to` from where the path `before` began.
@@ -163,20 +183,7 @@ bool Vicinity<Real>::follow(Index body, const Flown<Real>& before, double to) {
     const double distance = strayed(body, before, to);
     first_balls_[body].radius = std::max(first_balls_[body].radius, balls_.radius(distance + radius_of(body)));
     const double used = way(before.motion, length(before.acceleration), before.motion.t, to);
-    if (distance <= static_cast<double>(room_[body]) + used) return true;
-    const Motion<Real>& m = state_.bodies.motion[body];
-    return neighbours_.covers(body, swept_box(ticks_, m, acceleration_of(state_, body), m.t, to));
-}
-
-template <class Real>
-SweptBox Vicinity<Real>::wide_cover(Index body, double to) const {
-    const Motion<Real>& m = state_.bodies.motion[body];
-    return swept_box(ticks_, m, acceleration_of(state_, body), m.t, to, typical_room_ / 2);
-}
-
-template <class Real>
-void Vicinity<Real>::widen_cover(Index body, const SweptBox& more) {
-    cover_anew(body, neighbours_.cover_of(body).joined(more));
+    return distance <= static_cast<double>(room_[body]) + used;
 }
 
 template <class Real>

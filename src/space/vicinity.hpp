@@ -17,7 +17,7 @@ struct Flown {
 
 /// Lists of neighbours that last. A body's cover is a ball's box with *room* for its centre to move in any direction,
 /// impacts or not; the lists hold until too many bodies have used their room up. A body that is too fast for a ball
-/// gets a cover along its path, anew for each window.
+/// has boxes along its path instead, anew for each window.
 template <class Real>
 class Vicinity {
 public:
@@ -74,10 +74,13 @@ public:
     /// A body takes another path than `before`, on which the window began: widens its first ball accordingly. Whether
     /// the body stays in its cover.
     bool follow(Index body, const Flown<Real>& before, double to);
-    /// Ticks that hold what the body may do from its impact on, and somewhat more.
-    [[nodiscard]] SweptBox wide_cover(Index body, double to) const;
-    /// Widens a body's cover.
-    void widen_cover(Index body, const SweptBox& more);
+    /// Calls f(other) for every body whose cover a path meets until `to`, once or more often.
+    template <class F>
+    void for_each_along(const Flown<Real>& path, double to, F&& f) const {
+        for_each_piece(path, path.motion.t, to, [&](const SweptBox& box) { neighbours_.for_each_meeting(box, f); });
+    }
+    /// Covers a body on one more path.
+    void cover_along(Index body, const Flown<Real>& path, double from, double to);
     /// End of a window for a body that had impacts.
     void settle(Index body, const Flown<Real>& before, double to);
 
@@ -92,13 +95,17 @@ private:
         room_[body] -= static_cast<float>(std::min(length, far));
     }
 
+    template <class F>
+    void for_each_piece(const Flown<Real>& path, double from, double to, F&& f) const;
+
     void build(const Census& census, double from, double to);
     void choose_horizon(const Census& census, double duration);
     void keep_spatial_order();
+    bool update(double from, double to);
     void start_bodies(double from, double to);
     bool cover_strays(double from, double to);
-    SweptBox make_cover(Index body, double from, double to);
-    void cover_anew(Index body, const SweptBox& cover);
+    SweptBox make_cover(Index body, double to);
+    void cover_anew(Index body, double from, double to);
 
     State<Real>& state_;
     bool is_valid_ = false;
@@ -115,7 +122,24 @@ private:
     double gravity_ = 0;       ///< m/s^2
     double windows_ahead_ = 4; ///< that the lists are meant to last
     double typical_room_ = 0;  ///< m
+    double typical_size_ = 0;  ///< m, of a cover
     std::uint32_t builds_since_order_ = 0;
 };
+
+/// Cuts a path into pieces that are not much longer than covers are wide: the box of a long slanted path would hold
+/// far too much.
+template <class Real>
+template <class F>
+void Vicinity<Real>::for_each_piece(const Flown<Real>& path, double from, double to, F&& f) const {
+    constexpr double most_pieces = 64;
+    const double length = way(path.motion, carom::length(path.acceleration), from, to);
+    const double wanted = std::clamp(std::ceil(length / (2 * typical_size_)), 1.0, most_pieces);
+    const auto pieces = static_cast<int>(wanted);
+    for (int k = 0; k < pieces; ++k) {
+        const double start = from + (to - from) * (k / wanted);
+        const double end = k + 1 == pieces ? to : from + (to - from) * ((k + 1) / wanted);
+        f(swept_box(ticks_, path.motion, path.acceleration, start, end, 2 * state_.resolution.metres));
+    }
+}
 
 } // namespace carom::core
