@@ -95,7 +95,8 @@ TEST(Bouncing, SimBenchmarkEnergyError) {
     for (const double dt : {1e-4, 1e-3, 1e-2, 1e-1}) {
         World world(floor_under_gravity());
         for (int i = 0; i < 49; ++i) {
-            world.add({.position = {2.0 * (i % 7), 2.0 * (i / 7), 5}, .mass = 10, .radius = 0.1});
+            const int row = i / 7;
+            world.add({.position = {2.0 * (i % 7), 2.0 * row, 5}, .mass = 10, .radius = 0.1});
         }
         const double reference = 49 * 10 * gravity * 5;
         ASSERT_NEAR(reference, 24034.5, 1e-9);

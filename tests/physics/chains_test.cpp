@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -101,7 +102,7 @@ TEST(Cradle, SymmetricTieKeepsMomentumAndDoesNotGainEnergy) {
 // Galperin, Regular and Chaotic Dynamics 8, 375 (2003): impacts between a wall, a ball of mass 1 and one of mass 100^k
 // that comes in count the digits of pi.
 TEST(Pi, DigitsAsImpacts) {
-    constexpr std::uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159};
+    constexpr std::array<std::uint64_t, 6> digits{3, 31, 314, 3141, 31415, 314159};
     double mass = 1;
     for (const std::uint64_t expected : digits) {
         carom::WorldOptions options;

@@ -166,7 +166,8 @@ TEST(Gas, PeriodicCornersAndSmallWorlds) {
         five.set_min_windows(5);
         std::uint64_t added = 0;
         for (int k = 0; k < 64 && added < count; ++k) {
-            const Vec3 corner{(k % 4) * 1.125, ((k / 4) % 4) * 1.125, (k / 16) * 1.125};
+            const int layer = k / 16;
+            const Vec3 corner{(k % 4) * 1.125, ((k / 4) % 4) * 1.125, layer * 1.125};
             const Vec3 velocity{std::sin(k * 1.7) * 30, std::cos(k * 2.3) * 30, std::sin(k * 0.9 + 1) * 30};
             one.add({.position = corner, .velocity = velocity});
             five.add({.position = corner, .velocity = velocity});

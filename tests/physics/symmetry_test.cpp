@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
 namespace {
 
 using carom::Body;
-using carom::BodyId;
 using carom::Vec3;
 using carom::World;
 
@@ -26,7 +26,8 @@ World heap(const std::function<Vec3(const Vec3&)>& turned, carom::Precision prec
     options.region = box;
     World world(options);
     for (int i = 0; i < 216; ++i) {
-        const Vec3 place{(i % 6) * 1.25 - 3.1, ((i / 6) % 6) * 1.25 - 3.2, (i / 36) * 1.25 - 3.15};
+        const int layer = i / 36;
+        const Vec3 place{(i % 6) * 1.25 - 3.1, ((i / 6) % 6) * 1.25 - 3.2, layer * 1.25 - 3.15};
         const Vec3 velocity{std::sin(i * 1.3) * 4, std::cos(i * 0.7) * 4, std::sin(i * 2.1 + 1) * 4};
         world.add({.position = turned(place),
                    .velocity = turned(velocity),
@@ -57,7 +58,7 @@ void expect_turned(const std::function<Vec3(const Vec3&)>& turned, carom::Precis
     }
 }
 
-constexpr carom::Precision both[] = {carom::Precision::single_precision, carom::Precision::double_precision};
+constexpr std::array both{carom::Precision::single_precision, carom::Precision::double_precision};
 
 TEST(Symmetry, MirroredWorldsHaveMirroredBits) {
     for (const carom::Precision precision : both) {

@@ -441,7 +441,7 @@ TEST(BadOptions, Regions) {
 }
 
 TEST(BadOptions, OutsideTheWorld) {
-    const auto refuse = [](const char* field, WorldOptions options, std::size_t index = Error::no_index) {
+    const auto refuse = [](const char* field, const WorldOptions& options, std::size_t index = Error::no_index) {
         expect_no_world({ErrorCode::out_of_world, field, index}, options, 0);
     };
     refuse("region.min", {.region = Box{{-1e13, 0, 0}, {1, 1, 1}}});

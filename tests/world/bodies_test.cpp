@@ -14,7 +14,6 @@ namespace carom {
 
 namespace {
 
-using test::expect_error;
 using test::expect_refused;
 
 class Bodies : public test::BothPrecisions {
@@ -214,8 +213,8 @@ TEST_P(Bodies, AnOldIdStaysStaleForEver) {
 
 TEST_P(Bodies, RemovingWhileOthersMoveInMemory) {
     World world = open_world();
-    std::vector<BodyId> ids;
-    for (std::size_t k = 0; k < 100; ++k) ids.push_back(world.add(example_body(k)));
+    std::vector<BodyId> ids(100);
+    for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = world.add(example_body(k));
     std::mt19937 random(1); // NOLINT(cert-msc51-cpp): fixed
     std::shuffle(ids.begin(), ids.end(), random);
     while (ids.size() > 10) {
@@ -488,9 +487,7 @@ TEST_P(Bodies, OverlapIsRefusedAtAddAndSet) {
 TEST_P(Bodies, OverlapWithinOneCallNamesWhich) {
     World world = open_world();
     world.add({.position = {50, 0, 0}});
-    std::vector<Vec3> positions;
-    for (int k = 0; k < 6; ++k) positions.push_back({4.0 * k, 0, 0});
-    positions[5] = {8.5, 0, 0};
+    std::vector<Vec3> positions{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {12, 0, 0}, {16, 0, 0}, {8.5, 0, 0}};
     expect_overlap(world, 5, "body 2 of this call", [&](World& w) { w.add({.position = positions}); });
     positions[3] = {50, 0.5, 0};
     expect_overlap(world, 3, "slot 0", [&](World& w) { w.add({.position = positions}); });
@@ -719,13 +716,19 @@ TEST_P(Bodies, ManyImpactsAtOnceThatDoEndLoseNothing) {
 /// Processor time in seconds since `start`.
 double seconds_since(std::clock_t start) { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; }
 
+/// The k-th place of a lattice of `side` * `side` columns, m.
+Vec3 lattice_place(int k, int side) {
+    const int layer = k / (side * side);
+    return {1.1 * (k % side), 1.1 * ((k / side) % side), 1.1 * layer};
+}
+
 /// Seconds it takes to add bodies of a lattice one by one, where wanted with a refused call after each.
 double seconds_to_add(int count, bool with_refusals) {
     const std::clock_t start = std::clock();
     World world;
     int refused = 0;
     for (int k = 0; k < count; ++k) {
-        const Vec3 place{1.1 * (k % 30), 1.1 * ((k / 30) % 30), 1.1 * (k / 900)};
+        const Vec3 place = lattice_place(k, 30);
         world.add({.position = place});
         if (!with_refusals) continue;
         try {
@@ -751,8 +754,8 @@ TEST(CostOfAdding, OneByOneIsCheapForEach) {
 
 TEST(CostOfAdding, SpawningAndRemovingInAFullWorld) {
     World world;
-    std::vector<Vec3> positions;
-    for (int k = 0; k < 100'000; ++k) positions.push_back({1.1 * (k % 47), 1.1 * ((k / 47) % 47), 1.1 * (k / 2209)});
+    std::vector<Vec3> positions(100'000);
+    for (std::size_t k = 0; k < positions.size(); ++k) positions[k] = lattice_place(static_cast<int>(k), 47);
     const std::vector<BodyId> ids = world.add({.position = positions});
     const std::clock_t start = std::clock();
     for (std::size_t i = 0; i < 1000; ++i) {
