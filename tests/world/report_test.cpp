@@ -546,11 +546,11 @@ TEST_P(Reports, PotentialEnergyOfAttractors) {
     SmallNumbers small(GetParam());
     // 4 m from the first body and softened to 5, sqrt(98) from the second with softening.
     const Attractor placed{.position = {1, 2, -1}, .strength = 6, .softening = 3};
-    const Attractor carried{.strength = 5, .body = small.second};
+    const Attractor carried{.strength = 5, .softening = 4, .body = small.second};
     small.world.set_attractors(std::array{placed, carried});
     const double by_placed = -6 * (2 / 5.0 + 3 / std::sqrt(98.0));
     // The second body feels nothing of its own attractor.
-    const double by_carried = -5 * 2 / std::sqrt(33.0);
+    const double by_carried = -5 * 2 / std::sqrt(33.0 + 16);
     EXPECT_NEAR(small.world.energy().potential, by_placed + by_carried, 8 * eps * 8);
     small.world.set_attractors(std::array{carried});
     EXPECT_NEAR(small.world.energy().potential, by_carried, 8 * eps * 8);
