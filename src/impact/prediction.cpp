@@ -13,16 +13,31 @@ double pressed_pair_delay(const State<Real>& state) {
     return state.laws.collapse_time;
 }
 
+/// Whether a body that touches a static one is pressed to it: gravity may be outweighed by the speed along its curve.
+template <class Real>
+bool presses_on(const State<Real>& state, const Path<Real>& body, const Path<Real>& fixed, const Vec3& n,
+                const Vec3& velocity) {
+    const Index index = state.bodies.slots[body.slot].index;
+    return pressure_on(state, index, {fixed.slot, n}, velocity).acceleration > 0;
+}
+
 /// An impact that the times of impact put at once, between bodies that touch: whether there is one, and when.
 template <class Real>
-double immediate(const State<Real>& state, Kind a, Kind b, const Meeting& m, const Vec3& delta, const Vec3& pull) {
+double immediate(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, const Meeting& m,
+                 const Vec3& delta, const Vec3& pull) {
     const Vec3 n = contact_normal(delta, Vec3{});
     const double approach = dot(m.v_a - m.v_b, n);
     if (approach > approach_rounding<Real>(m.v_a, m.v_b, n)) return 0;
-    const bool pressed = dot(pull, n) < 0;
-    if (!pressed) return no_impact;
-    const bool support = a == Kind::fixed || b == Kind::fixed;
-    return support ? 0 : pressed_pair_delay(state);
+    if (b.kind == Kind::fixed) return presses_on(state, a, b, n, m.v_a) ? 0 : no_impact;
+    if (a.kind == Kind::fixed) return presses_on(state, b, a, -n, m.v_b) ? 0 : no_impact;
+    return dot(pull, n) < 0 ? pressed_pair_delay(state) : no_impact;
+}
+
+/// The same for two bodies in free flight, which nothing presses together.
+template <class Real>
+double immediate(const Meeting& m) {
+    const Vec3 n = contact_normal(m.delta, Vec3{});
+    return dot(m.v_a - m.v_b, n) > approach_rounding<Real>(m.v_a, m.v_b, n) ? 0 : no_impact;
 }
 
 /// How far ahead of `start` to look, s: everything that counts up to `until` once added to `start` and rounded. Curved
@@ -42,7 +57,7 @@ double time_to_image(const State<Real>& state, const Path<Real>& a, const Path<R
     const Vec3 pull = a.kind == b.kind && a.kind != Kind::held ? Vec3{} : b.acceleration - a.acceleration;
     const double horizon = horizon_of(state, start, until, pull != Vec3{});
     const double time = time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon);
-    return time == 0 ? immediate(state, a.kind, b.kind, m, delta, pull) : time;
+    return time == 0 ? immediate(state, a, b, m, delta, pull) : time;
 }
 
 /// The bodies' next impact over all periodic images that they may come to within the horizon.
@@ -97,7 +112,7 @@ double predict_free_pair(const State<Real>& state, const Motion<Real>& m_a, cons
     }
     const double contact = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
     const double time = time_to_spheres(m.delta, m.v_b - m.v_a, contact, horizon_of(state, start, until, false));
-    return start + (time == 0 ? immediate(state, Kind::free, Kind::free, m, m.delta, Vec3{}) : time);
+    return start + (time == 0 ? immediate<Real>(m) : time);
 }
 
 } // namespace

@@ -78,7 +78,9 @@ Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcom
         if (!event.at_wall()) inside = register_motion(event.b, event.time, to) && inside;
         if (!inside) return {.reached = event.time, .edge_reached = true};
         predict_again(event.a, no_index, event.time, to);
-        if (!event.at_wall()) predict_again(event.b, event.a, event.time, to);
+        if (event.at_wall()) continue;
+        const bool seen_from_a = state_.bodies.kind[event.a] != Kind::fixed;
+        predict_again(event.b, seen_from_a ? event.a : no_index, event.time, to);
     }
     return {.reached = to};
 }

@@ -57,6 +57,32 @@ TEST(Bouncing, ZenoTimesOfTheLiterature) {
     EXPECT_NEAR(zeno_time(1, 0.95), 17.609421998, 1e-9);
 }
 
+TEST(Bouncing, OnAStaticBodyAsOnAFloorWhicheverCameFirst) {
+    // Straight down onto a static body: the same heights, times and impacts as on the floor, all within one step.
+    constexpr double e = 0.8;
+    constexpr double duration = 2;
+    World floor(floor_under_gravity());
+    const carom::BodyId expected = floor.add(ball_at(1, e));
+    floor.step(duration);
+    const carom::Body support{.position = {0, 0, -3}, .mass = carom::infinite_mass, .radius = 3, .restitution = e};
+    for (const bool support_first : {true, false}) {
+        for (const bool serial : {true, false}) {
+            WorldOptions options;
+            options.gravity = {0, 0, -gravity};
+            options.serial_reference = serial;
+            World world(options);
+            if (support_first) world.add(support);
+            const carom::BodyId ball = world.add(ball_at(1, e));
+            if (!support_first) world.add(support);
+            const carom::StepReport& report = world.step(duration);
+            EXPECT_GT(report.impacts, 5U);
+            EXPECT_EQ(report.impacts, floor.report().face_impacts) << support_first << serial;
+            // Heights of about 1 m, after some ten impacts rounded to 2^-40 m each, which the bounces scale by 1 / e.
+            EXPECT_NEAR(world.get(ball).position.z, floor.get(expected).position.z, 1e-9) << support_first << serial;
+        }
+    }
+}
+
 TEST(Bouncing, ApexesShrinkByESquared) {
     World world(floor_under_gravity());
     const double e = 0.8;
