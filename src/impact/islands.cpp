@@ -11,7 +11,7 @@ Progress IslandSolver<Real>::resolve(const Census& census, double from, double t
     from_ = from;
     to_ = to;
     if (work_cap != 0 && outcome.all_impacts() >= work_cap) return resolve_serially(census, work_cap, outcome);
-    impacts_allowed_ = work_cap == 0 ? 0 : work_cap - outcome.all_impacts();
+    impacts_allowed_ = work_cap == 0 ? std::numeric_limits<std::uint64_t>::max() : work_cap - outcome.all_impacts();
     abandoned_ = false;
     vicinity_.prepare(census, from, to);
     costs_.seconds.cells += watch.lap();
@@ -226,7 +226,8 @@ bool IslandSolver<Real>::is_own(Index body) const {
 /// False if the island cannot go on in this round.
 template <class Real>
 bool IslandSolver<Real>::execute_event(const Event& event) {
-    if (impacts_allowed_ != 0 && log_.size() >= impacts_allowed_) {
+    if (log_.size() >= impacts_allowed_ || log_.size() >= occurrences_worthwhile() ||
+        strays_.size() >= strays_worthwhile()) {
         abandoned_ = true;
         return false;
     }

@@ -105,6 +105,10 @@ private:
     void prefetch_balls(std::uint32_t id) const;
     [[nodiscard]] bool is_foreign(Index body) const;
     [[nodiscard]] bool is_own(Index body) const;
+    /// More than this in one window, and one queue does better than keeping track: a few bodies that hit each other
+    /// over and over again.
+    [[nodiscard]] std::size_t occurrences_worthwhile() const { return 1024 + 8 * state_.bodies.size(); }
+    [[nodiscard]] std::size_t strays_worthwhile() const { return 64 + state_.bodies.size() / 8; }
     bool execute_event(const Event& event);
     void note_change(Index body);
     void follow(Index body, Index except, double now);
@@ -133,7 +137,7 @@ private:
 
     double from_ = 0;
     double to_ = 0;
-    std::uint64_t impacts_allowed_ = 0; ///< in this window; 0: any number
+    std::uint64_t impacts_allowed_ = 0; ///< in this window
     bool abandoned_ = false;            ///< this window is for the serial solver
 
     std::vector<std::uint32_t> member_; ///< per body: in members_, or none
