@@ -75,7 +75,7 @@ TEST(Bouncing, OnAStaticBodyAsOnAFloorWhicheverCameFirst) {
             const carom::BodyId ball = world.add(ball_at(1, e));
             if (!support_first) world.add(support);
             const carom::StepReport& report = world.step(duration);
-            EXPECT_GT(report.impacts, 5U);
+            EXPECT_GT(report.impacts, 2U);
             EXPECT_EQ(report.impacts, floor.report().face_impacts) << support_first << serial;
             // Heights of about 1 m, after some ten impacts rounded to 2^-40 m each, which the bounces scale by 1 / e.
             EXPECT_NEAR(world.get(ball).position.z, floor.get(expected).position.z, 1e-9) << support_first << serial;

@@ -28,7 +28,6 @@ bool same(const Impact& x, const Impact& y) {
 /// All that there is to see of a world's state.
 void expect_same(const World& world, const World& expected) {
     EXPECT_EQ(world.hash(), expected.hash());
-    EXPECT_TRUE(world.save() == expected.save());
     EXPECT_EQ(world.ids(), expected.ids());
     EXPECT_EQ(world.time(), expected.time());
     EXPECT_EQ(world.step_count(), expected.step_count());
@@ -42,6 +41,8 @@ void expect_same(const World& world, const World& expected) {
 std::size_t expect_same_future(World& world, int steps, double dt) {
     World loaded = World::load(world.save());
     expect_same(loaded, world);
+    // Only until the next step: the order of bodies in memory, in which they are saved, is no part of the state.
+    EXPECT_TRUE(loaded.save() == world.save());
     std::size_t compared = 0;
     for (int i = 0; i < steps; ++i) {
         const StepReport& expected = world.step(dt);
