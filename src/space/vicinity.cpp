@@ -101,19 +101,9 @@ void Vicinity<Real>::choose_horizon(const Census& census, double duration) {
 }
 
 template <class Real>
-void Vicinity<Real>::keep_spatial_order() {
-    constexpr std::uint32_t builds_between = 4;
-    if (builds_since_order_++ % builds_between != 0 || !is_valid_) return;
-    std::vector<Index> order;
-    neighbours_.spatial_order(order);
-    reorder(state_.bodies, order);
-}
-
-template <class Real>
 void Vicinity<Real>::build(const Census& census, double from, double to) {
     const Bodies<Real>& bodies = state_.bodies;
     choose_horizon(census, to - from);
-    keep_spatial_order();
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
     balls_ = Balls(ticks_);

@@ -26,8 +26,8 @@ public:
     /// Bodies were added, removed, or moved other than by a window.
     void forget() { is_valid_ = false; }
 
-    /// Start of a window, [from, to] in s since the start of the step: covers every body's path, and may put the
-    /// bodies into another order. What each body can reach without an impact counts as used up.
+    /// Start of a window, [from, to] in s since the start of the step: covers every body's path. What each body can
+    /// reach without an impact counts as used up.
     void prepare(const Census& census, double from, double to);
 
     /// Calls f(a, b) for every pair of neighbours whose first balls meet, once or more often.
@@ -100,7 +100,6 @@ private:
 
     void build(const Census& census, double from, double to);
     void choose_horizon(const Census& census, double duration);
-    void keep_spatial_order();
     bool update(double from, double to);
     void start_bodies(double from, double to);
     bool cover_strays(double from, double to);
@@ -123,7 +122,6 @@ private:
     double windows_ahead_ = 4; ///< that the lists are meant to last
     double typical_room_ = 0;  ///< m
     double typical_size_ = 0;  ///< m, of a cover
-    std::uint32_t builds_since_order_ = 0;
 };
 
 /// Cuts a path into pieces that are not much longer than covers are wide: the box of a long slanted path would hold

@@ -150,7 +150,7 @@ private:
     Placement<Real> placement_;
     double last_start_ = 0;               ///< s, when the last step began
     double last_step_ = 0;                ///< s, how far it came
-    std::uint32_t steps_since_order_ = 0; ///< since the serial solver's bodies were last put in spatial order
+    std::uint32_t steps_since_order_ = 0; ///< since the bodies were last put in spatial order
 };
 
 } // namespace carom::core

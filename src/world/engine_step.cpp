@@ -179,10 +179,22 @@ template <class Real>
 void Engine<Real>::keep_spatial_order() {
     // Rarely enough to cost little, often enough that neighbours stay near in memory.
     constexpr std::uint32_t steps_between = 16;
-    if (!setting_.options.serial_reference || steps_since_order_++ % steps_between != 0) return;
+    if (steps_since_order_++ % steps_between != 0) return;
+    // By positions alone: a world that was saved and loaded keeps the same order as one that went on.
+    const Census census = take_census(state_.bodies);
+    const double scale = std::max(4 * census.mean_radius, setting_.resolution.metres);
+    const Ticks ticks(state_.bounds, setting_.resolution, scale);
+    std::vector<SweptBox> boxes(size());
+    for (Index i = 0; i < size(); ++i) {
+        const Motion<Real>& m = state_.bodies.motion[i];
+        boxes[i] = ticks.box(m.x, {}, {}, static_cast<double>(m.radius));
+    }
+    Cells cells;
+    cells.build(boxes, ticks.axes(census));
     std::vector<Index> order;
-    serial_.neighbours().spatial_order(order);
+    cells.spatial_order(order);
     reorder(state_.bodies, order);
+    islands_.forget();
 }
 
 template <class Real>
