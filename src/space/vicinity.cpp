@@ -34,7 +34,8 @@ void Vicinity<Real>::prepare(const Census& census, double from, double to) {
     gravity_ = length(state_.laws.gravity);
     if (!update(from, to)) {
         build(census, from, to);
-        start_bodies(from, to);
+        // New covers are centred where the bodies were at their own times: their whole ways count.
+        start_bodies(0, to);
     }
     std::sort(covered_anew_.begin(), covered_anew_.end());
     covered_anew_.erase(std::unique(covered_anew_.begin(), covered_anew_.end()), covered_anew_.end());
@@ -79,7 +80,7 @@ bool Vicinity<Real>::cover_strays(double from, double to) {
     if (strays_.size() > few + state_.bodies.size() / part) return false;
     for (const Index i : strays_) {
         cover_anew(i, from, to);
-        use_room(i, path_length(i, from, to));
+        use_room(i, path_length(i, state_.bodies.motion[i].t, to));
     }
     return true;
 }

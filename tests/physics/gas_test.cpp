@@ -117,7 +117,7 @@ TEST(Gas, WindowsDoNotMatter) {
 TEST(Gas, IslandsDoAsTheSerialReference) {
     for (const carom::scene::WorkloadInfo& info : carom::scene::workload_list()) {
         for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
-            for (const double stretch : {1.0}) {
+            for (const double stretch : {1.0, 5.0}) {
                 const carom::scene::Scene scene = carom::scene::workload(info.name, 2000, precision).scene;
                 World islands = carom::scene::make_world(scene);
                 World reference = carom::scene::make_world(scene);
