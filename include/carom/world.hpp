@@ -5,6 +5,7 @@
 #include <carom/body.hpp>
 #include <carom/error.hpp>
 #include <carom/events.hpp>
+#include <carom/executor.hpp>
 #include <carom/region.hpp>
 
 #include <array>
@@ -54,9 +55,10 @@ struct WorldOptions {
     std::uint64_t work_cap = 0;
     /// How many windows a step is cut into at least, >= 1. A tuning knob: no result depends on it.
     std::uint32_t min_windows = 1;
-    /// Resolve all impacts in one queue, the reference. False: by islands, faster; not yet proven where a body has
-    /// several impacts a step.
-    bool serial_reference = true;
+    /// Resolve all impacts in one queue: slower, the reference that everything else is tested against.
+    bool serial_reference = false;
+    /// Threads that a step may use; 0: one for each core. No result depends on it.
+    unsigned threads = 0;
     bool record_impacts = true;
     double least_recorded_impulse = 0; ///< N s, >= 0: weaker impacts happen but are not recorded
     /// Keep each body's position at the start of the last step, for positions_at. Costs 24 bytes a body.
@@ -146,6 +148,11 @@ public:
     void set_work_cap(std::uint64_t work_cap);
     void set_min_windows(std::uint32_t min_windows);
     void set_serial_reference(bool serial_reference);
+    /// 0: one for each core.
+    void set_threads(unsigned threads);
+    /// Runs steps elsewhere, say in a game's own job system; copies of the world share it. Throws Error{out_of_range}
+    /// for a null pointer.
+    void set_executor(std::shared_ptr<Executor> executor);
     /// @}
 
     /// \name Sums over all bodies that are not static, compensated

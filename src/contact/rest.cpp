@@ -36,21 +36,21 @@ double gap_to(const State<Real>& state, Index body, const Support& support) {
     return length(separation(state, m, other, {}, {})) - radius - static_cast<double>(other.radius);
 }
 
-/// 1/m, the bend of the path of a body that slides along a support; positive where it presses the body on.
+/// A support as it is now, derived from its code.
 template <class Real>
-double bend_of(const State<Real>& state, Index body, const Support& support) {
-    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+Support derived(const State<Real>& state, Index body, const Support& support) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const Vec3 normal = normal_of(state, body, support);
+    Support now;
     if (support.is_wall()) {
-        return state.bounds.shape() == Bounds::Shape::shell ? 1 / (state.bounds.shell_radius() - radius) : 0;
+        now = support_by_wall(state, support.wall(), normal, m);
+        now.friction = encounter_of(state, body, state.bounds.walls()[support.wall()]).friction;
+    } else {
+        const Index fixed = state.bodies.slots[support.code].index;
+        now = support_by_body(support.code, normal, m, state.bodies.motion[fixed]);
+        now.friction = encounter_of(state, body, fixed).friction;
     }
-    const Index other = state.bodies.slots[support.code].index;
-    return -1 / (radius + static_cast<double>(state.bodies.motion[other].radius));
-}
-
-template <class Real>
-double friction_of(const State<Real>& state, Index body, const Support& support) {
-    if (support.is_wall()) return encounter_of(state, body, state.bounds.walls()[support.wall()]).friction;
-    return encounter_of(state, body, state.bodies.slots[support.code].index).friction;
+    return now;
 }
 
 /// Changes the velocity of a body that its supports turn, and enters the impulse.
@@ -72,7 +72,7 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
     const Vec3 pull = along_supports(all, hold.supports);
     const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
     double mu = 0;
-    for (const Support& s : hold.supports) mu = std::max(mu, friction_of(state, body, s));
+    for (const Support& s : hold.supports) mu = std::max(mu, s.friction);
     const double grip = mu * length(all - pull);
     const double speed = length(v);
     hold.sticks = mu > 0 && duration > 0 && (grip - length(pull)) * duration >= speed;
@@ -89,13 +89,29 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
 } // namespace
 
 template <class Real>
-Pressure pressure_on(const State<Real>& state, Index body, const Support& support, const Vec3& velocity) {
-    const Vec3 pull = attraction(state, body);
+Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion) {
+    const bool is_shell = state.bounds.shape() == Bounds::Shape::shell;
+    const auto radius = static_cast<double>(motion.radius);
+    return {.code = Support::wall_bit | wall,
+            .normal = normal,
+            .bend = is_shell ? 1 / (state.bounds.shell_radius() - radius) : 0};
+}
+
+template <class Real>
+Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed) {
+    const double distance = static_cast<double>(motion.radius) + static_cast<double>(fixed.radius);
+    return {.code = slot, .normal = normal, .bend = -1 / distance};
+}
+
+template <class Real>
+Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
+                     const Vec3& velocity) {
+    const Vec3 pull = attraction(state, motion.x, slot);
     const Vec3& n = support.normal;
     const double across = dot(velocity, n);
     const double slide_squared = std::max(0.0, length_squared(velocity) - across * across);
     const double kick = std::max(0.0, dot(pull, n)) * state.laws.kick_interval;
-    return {dot(state.laws.gravity + pull, n) + bend_of(state, body, support) * slide_squared, kick};
+    return {dot(state.laws.gravity + pull, n) + support.bend * slide_squared, kick};
 }
 
 template <class Real>
@@ -109,17 +125,18 @@ void hold_against(State<Real>& state, Index body, const Support& support, double
 }
 
 template <class Real>
-void refresh_holds(State<Real>& state, double duration) {
+void refresh_holds(State<Real>& state, double duration, std::vector<Index>& released) {
     Bodies<Real>& bodies = state.bodies;
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
         Hold& hold = it->second;
         const Index body = bodies.slots[it->first].index;
         const Vec3 v = velocity_of(bodies.motion[body]);
         std::erase_if(hold.supports, [&](Support& s) {
-            s.normal = normal_of(state, body, s);
-            return pressure_on(state, body, s, v).acceleration <= 0;
+            s = derived(state, body, s);
+            return pressure_on(state, bodies.motion[body], it->first, s, v).acceleration <= 0;
         });
         if (hold.supports.empty()) {
+            released.push_back(body);
             bodies.kind[body] = Kind::free;
             it = bodies.holds.erase(it);
             continue;
@@ -173,9 +190,12 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 }
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \
-    template Pressure pressure_on(const State<Real>&, Index, const Support&, const Vec3&);                             \
+    template Support support_by_wall(const State<Real>&, std::uint32_t, const Vec3&, const Motion<Real>&);             \
+    template Support support_by_body(std::uint32_t, const Vec3&, const Motion<Real>&, const Motion<Real>&);            \
+    template Pressure pressure_on(const State<Real>&, const Motion<Real>&, std::uint32_t, const Support&,              \
+                                  const Vec3&);                                                                        \
     template void hold_against(State<Real>&, Index, const Support&, double, Entry&);                                   \
-    template void refresh_holds(State<Real>&, double);                                                                 \
+    template void refresh_holds(State<Real>&, double, std::vector<Index>&);                                            \
     template void settle_holds(State<Real>&);                                                                          \
     template Vec3 kick_along_supports(const State<Real>&, Index, Vec3);                                                \
     template void release_from(Bodies<Real>&, std::uint32_t);

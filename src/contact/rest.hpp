@@ -31,16 +31,25 @@ struct Pressure {
     double kick = 0;         ///< m/s, what the attractors' kicks add between two impacts: no real approach speed
 };
 
+/// On a body at motion.x in `slot` that passes there with `velocity` (m/s).
 template <class Real>
-Pressure pressure_on(const State<Real>& state, Index body, const Support& support, const Vec3& velocity);
+Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
+                     const Vec3& velocity);
+
+/// A wall, or a static body, as what a body may rest against; without friction.
+template <class Real>
+Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion);
+template <class Real>
+Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed);
 
 /// Puts a body, standing where it touches the support, to rest against it. `remaining`: s to the end of the step.
 template <class Real>
 void hold_against(State<Real>& state, Index body, const Support& support, double remaining, Entry& entry);
 
 /// Start of a step: drops supports that no longer press and derives how the held bodies move in the next `duration`.
+/// Appends the bodies that are let go to `released`.
 template <class Real>
-void refresh_holds(State<Real>& state, double duration);
+void refresh_holds(State<Real>& state, double duration, std::vector<Index>& released);
 
 /// End of a step: puts bodies that slid along a curved or slanted support back onto it.
 template <class Real>

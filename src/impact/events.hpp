@@ -55,11 +55,11 @@ public:
     }
 
     [[nodiscard]] bool outdated(const Event& event) const {
-        return outdated_for_a(event) || (!event.at_wall() && bodies_->trait[event.b].version != event.version_b);
+        return outdated_for_a(event) || (!event.at_wall() && bodies_->course[event.b].version != event.version_b);
     }
     /// Whether body a has had another impact since.
     [[nodiscard]] bool outdated_for_a(const Event& event) const {
-        return bodies_->trait[event.a].version != event.version_a;
+        return bodies_->course[event.a].version != event.version_a;
     }
 
 private:

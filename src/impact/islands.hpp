@@ -1,17 +1,18 @@
 /// \file
-/// Impacts by islands: groups of bodies that impacts couple inside one window, each resolved on its own. The result is,
-/// to the last bit, that of the serial reference.
+/// Impacts by islands: groups of bodies that impacts couple inside one window, each resolved on its own, several at the
+/// same time. The result is, to the last bit, that of the serial reference.
 ///
-/// Within an island events run in the order of (time, ids), as in one queue. Bodies outside count as on the paths on
-/// which they began the window. An island that meets a body outside stops; afterwards it is merged with that body's
-/// island and run again from the start of the window. So is one of whose bodies the new path meets the new path of
-/// another island's body. When nothing meets any more, no island has influenced another: their sequences, merged by
-/// time, are those of the one queue.
+/// Islands are resolved in rounds, on copies: while a round runs, nothing changes that another island could see. An
+/// island that met a body of another, or one of whose bodies on its new path meets the new path of another island's
+/// body, is merged with that island and run again from the start of the window. When nothing meets any more, no island
+/// has influenced another: their sequences, merged by time, are those of the one queue.
 #pragma once
 
 #include "impact/serial.hpp"
-#include "space/vicinity.hpp"
+#include "impact/workshop.hpp"
 
+#include <array>
+#include <memory>
 #include <utility>
 
 namespace carom::core {
@@ -29,140 +30,106 @@ struct IslandCounts {
 template <class Real>
 class IslandSolver {
 public:
-    IslandSolver(State<Real>& state, SerialSolver<Real>& serial)
-        : state_(state), serial_(serial), vicinity_(state), queue_(state.bodies) {}
+    IslandSolver(State<Real>& state, SerialSolver<Real>& serial);
 
-    /// Executes all impacts in [from, to] (s since the start of the step).
-    Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
+    void use(std::shared_ptr<Executor> executor);
 
-    /// Bodies were added, removed, or moved otherwise than by resolve().
-    void forget() { vicinity_.forget(); }
+    /// Executes impacts in [from, to], or in a first part of it where too many depend on each other.
+    Progress resolve(const Census& census, Window window, bool kicked, std::uint64_t work_cap, Outcome& outcome);
+
+    [[nodiscard]] Vicinity<Real>& vicinity() { return vicinity_; }
 
     /// Of all windows since it was asked last.
     SolverCosts take_costs() { return std::exchange(costs_, {}); }
     IslandCounts take_counts() { return std::exchange(counts_, {}); }
 
 private:
-    Progress resolve_serially(const Census& census, std::uint64_t work_cap, Outcome& outcome);
-
-    static constexpr std::uint32_t none = 0xffffffffU;
-
-    /// From one place to before another.
-    struct Range {
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-    };
-
-    /// A body of an island, and how it began the window.
+    /// A body of an island.
     struct Member {
         Index body = no_index;
-        std::uint32_t island = none;
-        std::uint32_t last_leg = none; ///< the newest of its legs, other than the one it is on
-        std::uint32_t version = 0;
-        Flown<Real> before{};
-        Flight flight{};
-        Kind kind = Kind::free;
-        bool changed = false;      ///< had an impact
-        std::uint32_t hold = none; ///< in former_holds_, if held
-    };
-
-    /// A path between two impacts of a body in the window.
-    struct Leg {
-        Flown<Real> flown{};
-        Kind kind = Kind::free;
-        std::uint32_t earlier = none; ///< the leg before
+        std::uint32_t island = nowhere;
+        std::uint32_t part = 0;         ///< whose workshop has what became of it
+        std::uint32_t turned = nowhere; ///< there; nowhere if it had no impact
     };
 
     struct Island {
         Range roster{}; ///< in roster_
         Range events{}; ///< in island_events_
-        Range log{};    ///< in log_: what happened
-        bool finished = false;
-        std::uint32_t parent = none; ///< while islands are merged: one that this belongs to; itself if it stays
+        std::uint32_t part = 0;
+        Outturn outturn{};
+        std::uint32_t parent = nowhere; ///< while islands are merged: one that this belongs to; itself if it stays
     };
 
-    /// An island, and a body outside that it meets.
+    /// An island, and a body of another that it meets.
     struct Meeting {
-        std::uint32_t island = none;
+        std::uint32_t island = nowhere;
         Index other = no_index;
     };
-    /// A body that an impact made leave its cover.
-    struct Stray {
-        Index body = no_index;
-        Flown<Real> path{};
-    };
+
+    Progress resolve_serially(const Census& census, std::uint64_t work_cap, Outcome& outcome);
 
     void predict_first();
-    void predict_batch();
-    void push_first(const Event& event);
+    void predict_batch(std::size_t part, std::size_t begin, std::size_t end);
+    void enter_first(const Event& event);
     std::uint32_t member_of(Index body);
     std::uint32_t root_of(std::uint32_t member);
     void form_islands();
+
     bool run_to_fixpoint();
-
-    void run(std::uint32_t id);
-    void prefetch(std::uint32_t id) const;
-    void prefetch_balls(std::uint32_t id) const;
-    [[nodiscard]] bool is_foreign(Index body) const;
-    [[nodiscard]] bool is_own(Index body) const;
-    /// More than this in one window, and one queue does better than keeping track: a few bodies that hit each other
-    /// over and over again.
-    [[nodiscard]] std::size_t occurrences_worthwhile() const { return 1024 + 8 * state_.bodies.size(); }
-    [[nodiscard]] std::size_t strays_worthwhile() const { return 64 + state_.bodies.size() / 8; }
-    bool execute_event(const Event& event);
-    void note_change(Index body);
-    void follow(Index body, Index except, double now);
-    [[nodiscard]] double predict(Index body, Index other, double now);
-    [[nodiscard]] Path<Real> former_path(const Member& member) const;
-
+    void run_pending();
+    void publish(std::uint32_t id);
     void cover_strays();
-    void compare(std::uint32_t id);
+    void compare_pending();
+    void compare(std::size_t part, std::uint32_t id);
     [[nodiscard]] bool paths_meet(const Member& a, const Member& b) const;
 
     void merge();
     void unite(std::uint32_t a, std::uint32_t b);
     std::uint32_t island_root(std::uint32_t id);
-    std::uint32_t island_of_single(Index body);
-    void restart(std::uint32_t id);
-    void join_group(const std::vector<std::uint32_t>& group);
-    void restore(Member& member);
+    void join_group(std::span<const std::uint32_t> group);
 
     void commit(Outcome& outcome);
+    void write_back();
+    void remember_flights();
+    void write_down(Outcome& outcome);
     void clear_window();
+
+    [[nodiscard]] const Turned<Real>& turned_of(const Member& member) const {
+        return workshops_[member.part]->turned[member.turned];
+    }
+    [[nodiscard]] std::span<const Index> bodies_of(const Island& island) const {
+        return {roster_.data() + island.roster.begin, roster_.data() + island.roster.end};
+    }
+    [[nodiscard]] std::span<const Event> events_of(const Island& island) const {
+        return {island_events_.data() + island.events.begin, island_events_.data() + island.events.end};
+    }
 
     State<Real>& state_;
     SerialSolver<Real>& serial_;
+    std::shared_ptr<Executor> executor_;
     Vicinity<Real> vicinity_;
-    EventQueue<Real> queue_;
 
-    double from_ = 0;
-    double to_ = 0;
-    std::uint64_t impacts_allowed_ = 0; ///< in this window
-    bool abandoned_ = false;            ///< this window is for the serial solver
+    Window window_{};
+    bool given_up_ = false; ///< this window is for the serial solver
 
-    std::vector<std::uint32_t> member_; ///< per body: in members_, or none
+    std::array<std::unique_ptr<Workshop<Real>>, most_parts> workshops_;
+    std::array<std::vector<Event>, most_parts> found_;      ///< first events
+    std::array<std::vector<Meeting>, most_parts> meetings_; ///< of paths
+    std::vector<std::uint32_t> memberships_;                ///< per body: in members_, or nowhere
     std::vector<Member> members_;
-    std::vector<std::uint32_t> parents_;  ///< per member: the forest in which islands are found
-    std::vector<Neighbours::Pair> batch_; ///< to be predicted next
+    std::vector<std::uint32_t> parents_; ///< per member: the forest in which islands are found
     std::vector<Event> first_events_;
     std::vector<Island> islands_;
-    std::vector<std::uint32_t> roster_;
+    std::vector<Index> roster_;
     std::vector<Event> island_events_;
     std::vector<std::uint32_t> pending_; ///< islands to run
-    std::uint32_t current_ = none;       ///< the island that runs
-
-    std::vector<Occurrence> log_;
-    std::vector<EventIds> log_ids_;
-    std::vector<Leg> legs_;
-    std::vector<Hold> former_holds_;
-    std::vector<Meeting> meetings_;
-    std::vector<Stray> strays_;  ///< of this round
-    std::size_t own_strays_ = 0; ///< where the running island's begin
+    std::vector<typename Vicinity<Real>::Turned> turned_;
 
     /// The place of an occurrence in the order of all.
     struct Place {
         double time = 0;
         EventIds ids{};
+        std::uint32_t part = 0;
         std::uint32_t log = 0;
         friend auto operator<=>(const Place&, const Place&) = default;
     };

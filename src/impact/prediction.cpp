@@ -17,8 +17,8 @@ double pressed_pair_delay(const State<Real>& state) {
 template <class Real>
 bool presses_on(const State<Real>& state, const Path<Real>& body, const Path<Real>& fixed, const Vec3& n,
                 const Vec3& velocity) {
-    const Index index = state.bodies.slots[body.slot].index;
-    return pressure_on(state, index, {fixed.slot, n}, velocity).acceleration > 0;
+    const Support support = support_by_body(fixed.slot, n, *body.motion, *fixed.motion);
+    return pressure_on(state, *body.motion, body.slot, support, velocity).acceleration > 0;
 }
 
 /// An impact that the times of impact put at once, between bodies that touch: whether there is one, and when.
@@ -165,7 +165,8 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, do
     // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.
     const Vec3 n = state.bounds.normal(face, m.x, {}, state.resolution);
     if (std::abs(dot(v, n)) > approach_rounding<Real>(v, {}, n)) return m.t + time;
-    const bool pressed = pressure_on(state, body, {Support::wall_bit | wall, n}, v).acceleration > 0;
+    const Support support = support_by_wall(state, wall, n, m);
+    const bool pressed = pressure_on(state, m, bodies.trait[body].slot, support, v).acceleration > 0;
     return pressed ? m.t : no_impact;
 }
 

@@ -67,7 +67,7 @@ double reach_of(const Motion<Real>& m, const Vec3& acceleration, double until) {
     return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
 }
 
-/// Calls f(event) for every wall that a body meets until `until`.
+/// Calls f(time, wall) for every wall that a body meets until `until`.
 template <class Real, class F>
 void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {
     if (state.bodies.kind[body] == Kind::fixed) return;
@@ -77,7 +77,7 @@ void for_each_wall_event(const State<Real>& state, Index body, double until, F&&
     const auto count = static_cast<std::uint32_t>(state.bounds.walls().size());
     for (std::uint32_t wall = 0; wall < count; ++wall) {
         const double time = predict_wall(state, body, wall, until);
-        if (time <= until) f(Event{time, body, Event::wall_bit | wall, state.bodies.trait[body].version, 0});
+        if (time <= until) f(time, Event::wall_bit | wall);
     }
 }
 

@@ -25,7 +25,7 @@ struct Haste {
 /// Counts an impact of a body.
 template <class Real>
 Haste count_impact(State<Real>& state, Index body, double time, double approach, bool at_support) {
-    Flight& flight = state.bodies.trait[body].flight;
+    Flight& flight = state.bodies.course[body].flight;
     const double duration = time - flight.last_impact;
     if (duration > state.laws.collapse_time) flight.quick_impacts = 0;
     const bool still = flight.quick_impacts > 0 && approach * duration <= 2 * state.resolution.metres;
@@ -46,7 +46,7 @@ template <class Real>
 void take_part(State<Real>& state, Index body, double time, Entry& entry) {
     if (state.bodies.kind[body] == Kind::fixed) return;
     advance(state, body, time, entry);
-    ++state.bodies.trait[body].version;
+    ++state.bodies.course[body].version;
 }
 
 template <class Real>
@@ -80,7 +80,7 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
 /// A support that a body touches at `time`: whether the body comes to rest there.
 template <class Real>
 bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
-    const Pressure pressure = pressure_on(state, body, support, v);
+    const Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
     if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
     return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
 }
@@ -116,7 +116,9 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const Bounds::Wall& wall = state.bounds.walls()[event.wall()];
     const Motion<Real>& m = state.bodies.motion[event.a];
     const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
-    const Support support{event.b, state.bounds.normal(wall, m.x, d, state.resolution)};
+    const Encounter encounter = encounter_of(state, event.a, wall);
+    Support support = support_by_wall(state, event.wall(), state.bounds.normal(wall, m.x, d, state.resolution), m);
+    support.friction = encounter.friction;
     take_part(state, event.a, event.time, occurrence.entry);
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.trait[event.a].slot,
@@ -124,7 +126,7 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
                          .x = m.x,
                          .arm = support.normal * static_cast<double>(m.radius),
                          .normal = support.normal};
-    meet_support(state, event.a, support, encounter_of(state, event.a, wall), occurrence);
+    meet_support(state, event.a, support, encounter, occurrence);
 }
 
 /// Two bodies that both move.
@@ -147,6 +149,16 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Occ
     write_down(response, occurrence);
 }
 
+/// A body, already at its time, against a static one.
+template <class Real>
+void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
+    const Bodies<Real>& bodies = state.bodies;
+    const Encounter encounter = encounter_of(state, body, fixed);
+    Support support = support_by_body(bodies.trait[fixed].slot, n, bodies.motion[body], bodies.motion[fixed]);
+    support.friction = encounter.friction;
+    meet_support(state, body, support, encounter, occurrence);
+}
+
 template <class Real>
 void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
@@ -164,9 +176,9 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
                          .arm = n * static_cast<double>(bodies.motion[a].radius),
                          .normal = n};
     if (bodies.kind[a] == Kind::fixed) {
-        meet_support(state, b, {bodies.trait[a].slot, -n}, encounter_of(state, a, b), occurrence);
+        meet_static(state, b, a, -n, occurrence);
     } else if (bodies.kind[b] == Kind::fixed) {
-        meet_support(state, a, {bodies.trait[b].slot, n}, encounter_of(state, a, b), occurrence);
+        meet_static(state, a, b, n, occurrence);
     } else {
         meet_body(state, a, b, meeting, occurrence);
     }

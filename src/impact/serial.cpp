@@ -17,6 +17,7 @@ template <class Real>
 Progress SerialSolver<Real>::resolve(const Census& census, double from, double to, std::uint64_t work_cap,
                                      Outcome& outcome) {
     Stopwatch watch;
+    recall_flights();
     find_neighbours(census, from, to);
     costs_.seconds.cells += watch.lap();
     queue_.clear();
@@ -24,9 +25,31 @@ Progress SerialSolver<Real>::resolve(const Census& census, double from, double t
     costs_.seconds.pairs += watch.lap();
     const std::uint64_t before = outcome.impacts;
     const Progress progress = run_queue(to, work_cap, outcome);
+    remember_flights(progress.reached);
     impacts_per_body_ = static_cast<double>(outcome.impacts - before) / static_cast<double>(state_.bodies.size() + 1);
     costs_.seconds.impacts += watch.lap();
     return progress;
+}
+
+template <class Real>
+void SerialSolver<Real>::recall_flights() {
+    Bodies<Real>& bodies = state_.bodies;
+    bodies.course.assign(bodies.size(), {});
+    for (const auto& [slot, flight] : bodies.recent_flights) bodies.course[bodies.slots[slot].index].flight = flight;
+}
+
+template <class Real>
+void SerialSolver<Real>::remember_flights(double now) {
+    Bodies<Real>& bodies = state_.bodies;
+    bodies.recent_flights.clear();
+    for (Index i = 0; i < bodies.size(); ++i) {
+        const Flight& flight = bodies.course[i].flight;
+        if (is_recent(flight, now, state_.laws.collapse_time)) {
+            bodies.recent_flights.push_back({bodies.trait[i].slot, flight});
+        }
+    }
+    sort_by_slot(bodies.recent_flights);
+    bodies.course.clear();
 }
 
 template <class Real>
@@ -52,7 +75,7 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
 
 template <class Real>
 void SerialSolver<Real>::predict_first(double from, double to) {
-    for (const auto& [a, b] : neighbours_.pairs()) predict(a, b, from, to);
+    for (const auto& [a, b] : neighbours_.first_pairs()) predict(a, b, from, to);
     for (const Index i : near_walls_) predict_walls(i, to);
 }
 
@@ -137,12 +160,14 @@ template <class Real>
 void SerialSolver<Real>::predict(Index a, Index b, double now, double to) {
     ++costs_.predictions;
     const double time = predict_pair(state_, a, b, now, to);
-    if (time <= to) queue_.push({time, a, b, state_.bodies.trait[a].version, state_.bodies.trait[b].version});
+    if (time <= to) queue_.push({time, a, b, state_.bodies.course[a].version, state_.bodies.course[b].version});
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_walls(Index body, double to) {
-    for_each_wall_event(state_, body, to, [this](const Event& event) { queue_.push(event); });
+    for_each_wall_event(state_, body, to, [&](double time, std::uint32_t wall) {
+        queue_.push({time, body, wall, state_.bodies.course[body].version, 0});
+    });
 }
 
 template class SerialSolver<float>;

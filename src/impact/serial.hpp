@@ -39,6 +39,8 @@ public:
     SolverCosts take_costs() { return std::exchange(costs_, {}); }
 
 private:
+    void recall_flights();
+    void remember_flights(double now);
     void find_neighbours(const Census& census, double from, double to);
     void predict_first(double from, double to);
     Progress run_queue(double to, std::uint64_t work_cap, Outcome& outcome);

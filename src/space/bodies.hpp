@@ -6,6 +6,7 @@
 
 #include <carom/body.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <vector>
@@ -30,10 +31,34 @@ struct Flight {
     std::uint16_t still_bounces = 0; ///< the last ones of those, all with faces or static bodies
 };
 
+/// The flight of a body that met something within collapse_time: all others have none to remember.
+struct RecentFlight {
+    std::uint32_t slot = 0;
+    Flight flight{};
+};
+
+/// Whether the TC rule still counts from a flight at `now` (s since the start of the step).
+inline bool is_recent(const Flight& flight, double now, double collapse_time) {
+    return flight.quick_impacts > 0 && now - flight.last_impact <= collapse_time;
+}
+
+inline void sort_by_slot(std::vector<RecentFlight>& flights) {
+    std::sort(flights.begin(), flights.end(),
+              [](const RecentFlight& a, const RecentFlight& b) { return a.slot < b.slot; });
+}
+
+/// What a solver keeps of a body while it resolves a window.
+struct Course {
+    Flight flight{};
+    std::uint32_t version = 0; ///< changes with every impact of the body: outdates its events
+};
+
 /// What a held body rests against.
 struct Support {
     std::uint32_t code = 0; ///< wall_bit | index of a wall of the Bounds, or the slot of a static body
     Vec3 normal{};          ///< unit vector from the body into the support
+    double bend = 0;        ///< 1/m, of the path of a body that slides along it; positive where it presses the body on
+    double friction = 0;    ///< between the two
 
     static constexpr std::uint32_t wall_bit = 0x80000000U;
     [[nodiscard]] bool is_wall() const { return (code & wall_bit) != 0; }
@@ -49,7 +74,7 @@ struct Hold {
     bool sticks = false;           ///< friction outweighs what pulls along the supports
 };
 
-/// What a body is beside its motion. One more cache line: an impact touches two lines of each body.
+/// What a body is beside its motion.
 template <class Real>
 struct Trait {
     Real mass = 0; ///< kg; infinity for static bodies
@@ -57,8 +82,6 @@ struct Trait {
     Real friction = 0;
     std::uint32_t material = 0;
     std::uint32_t slot = 0;
-    Flight flight{};
-    std::uint32_t version = 0; ///< changes with every impact of the body: outdates its events
 };
 
 /// To be called in a loop over an array with much work per element: asks for the element that is some turns away. Such
@@ -85,7 +108,9 @@ struct Bodies {
     std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
-    std::map<std::uint32_t, Hold> holds; ///< of the held bodies, by slot
+    std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
+    std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
+    std::vector<Course> course;               ///< per body, only while a solver works on these bodies
     std::vector<Slot> slots;
     std::vector<std::uint32_t> free_slots; ///< last in, first out
 
@@ -107,6 +132,15 @@ const Hold& hold_of(const Bodies<Real>& bodies, Index index) {
     return bodies.holds.find(bodies.trait[index].slot)->second;
 }
 
+/// The flight that is remembered of a body.
+template <class Real>
+Flight recent_flight(const Bodies<Real>& bodies, std::uint32_t slot) {
+    const auto& flights = bodies.recent_flights;
+    const auto place = std::lower_bound(flights.begin(), flights.end(), slot,
+                                        [](const RecentFlight& f, std::uint32_t s) { return f.slot < s; });
+    return place != flights.end() && place->slot == slot ? place->flight : Flight{};
+}
+
 /// Lets a held body go; any other stays as it is.
 template <class Real>
 void release(Bodies<Real>& bodies, Index index) {
@@ -120,6 +154,7 @@ template <class Real>
 void remove_body(Bodies<Real>& bodies, Index index) {
     release(bodies, index);
     const std::uint32_t slot = bodies.trait[index].slot;
+    std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
     bodies.slots[bodies.trait.back().slot].index = index;
     bodies.for_each_array([index](auto& array) {
         array[index] = array.back();

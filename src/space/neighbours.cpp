@@ -6,16 +6,16 @@ namespace carom::core {
 
 void Neighbours::make_lists(std::size_t bodies) {
     first_.assign(bodies + 1, 0);
-    for (const auto& [a, b] : pairs()) {
+    for (const auto& [a, b] : pairs_.pairs()) {
         ++first_[a];
         ++first_[b];
     }
     std::uint32_t end = 0;
     for (std::uint32_t& first : first_) first = end += first;
     asks_list_.assign(bodies, 1);
-    list_.resize(2 * pairs().size());
+    list_.resize(2 * pairs_.pairs().size());
     // From the ends down: afterwards each entry is where its list begins.
-    for (const auto& [a, b] : pairs()) {
+    for (const auto& [a, b] : pairs_.pairs()) {
         list_[--first_[a]] = b;
         list_[--first_[b]] = a;
     }

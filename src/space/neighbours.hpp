@@ -29,8 +29,10 @@ public:
         make_lists(covers.size());
     }
 
-    /// Pairs of neighbours as of build(), once or more often.
-    [[nodiscard]] std::span<const Pair> pairs() const { return pairs_.pairs(); }
+    /// Pairs of neighbours as of build(), once or more often; for serial solvers that keep no list per body.
+    [[nodiscard]] std::span<const Pair> first_pairs() const { return pairs_.pairs(); }
+    /// How many pairs build() found.
+    [[nodiscard]] std::size_t pairs() const { return list_.size() / 2; }
 
     /// Whether `box` lies in the cover of a body.
     [[nodiscard]] bool covers(Index body, const SweptBox& box) const { return cells_.box_of(body).holds(box); }

@@ -35,7 +35,7 @@ struct Laws {
 struct Entry {
     double lost_to_restitution = 0; ///< J
     double lost_to_friction = 0;    ///< J
-    double mass_time = 0;           ///< kg s under uniform gravity
+    double held_mass_time = 0;      ///< kg s held against uniform gravity
     Vec3 outer_impulse{};           ///< N s, without uniform gravity's
 };
 
@@ -44,13 +44,13 @@ struct Books {
     Sum lost_to_restitution;
     Sum lost_to_friction;
     Sum lost_to_drag;
-    Sum mass_time;           ///< kg s under uniform gravity; its impulse is this times the acceleration
+    Sum held_mass_time;      ///< kg s of the present step, held against uniform gravity
     VectorSum outer_impulse; ///< N s, without uniform gravity's of the present step
 
     void add(const Entry& entry) {
         lost_to_restitution.add(entry.lost_to_restitution);
         lost_to_friction.add(entry.lost_to_friction);
-        mass_time.add(entry.mass_time);
+        held_mass_time.add(entry.held_mass_time);
         outer_impulse.add(entry.outer_impulse);
     }
 };
@@ -107,17 +107,22 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
     return {};
 }
 
-/// Acceleration by all attractors at a body, m/s^2.
+/// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.
 template <class Real>
-Vec3 attraction(const State<Real>& state, Index i) {
+Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
     Vec3 sum{};
     for (const PointField& field : state.laws.fields) {
-        if (field.carrier == state.bodies.trait[i].slot) continue;
-        const Vec3 d = to_metres(field.x - state.bodies.motion[i].x, state.resolution);
+        if (field.carrier == slot) continue;
+        const Vec3 d = to_metres(field.x - x, state.resolution);
         const double distance_squared = length_squared(d) + field.softening * field.softening;
         if (distance_squared > 0) sum += d * (field.strength / (distance_squared * std::sqrt(distance_squared)));
     }
     return sum;
+}
+
+template <class Real>
+Vec3 attraction(const State<Real>& state, Index i) {
+    return attraction(state, state.bodies.motion[i].x, state.bodies.trait[i].slot);
 }
 
 /// Shortest way along periodic axes: subtracts whole periods from a difference of positions (units) such that
@@ -146,21 +151,19 @@ Vec3 separation(const State<Real>& state, const Motion<Real>& a, const Motion<Re
     return to_metres(difference, state.resolution) + (d_b - d_a);
 }
 
-/// Enters what gravity, supports and friction did to a body on its way `d` (m) over `duration` (s).
+/// Enters what gravity, supports and friction did to a held body on its way `d` (m) over `duration` (s). Of free bodies
+/// the books know that uniform gravity acts on them all the time.
 template <class Real>
-void book_way(const State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration, Entry& entry) {
+void book_held_way(const State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration, Entry& entry) {
     const auto mass = static_cast<double>(state.bodies.trait[i].mass);
-    if (state.bodies.kind[i] == Kind::free) {
-        entry.mass_time += mass * duration;
-    } else {
-        entry.outer_impulse += a * (mass * duration);
-        entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);
-    }
+    entry.held_mass_time += mass * duration;
+    entry.outer_impulse += a * (mass * duration);
+    entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);
 }
 
-/// Brings a body to time `s`: the one place that rounds a position. Whether there is something for the books.
+/// Brings a body to time `s`: the one place that rounds a position.
 template <class Real>
-bool advance(State<Real>& state, Index i, double s, Entry& entry) {
+void advance(State<Real>& state, Index i, double s, Entry& entry) {
     Motion<Real>& m = state.bodies.motion[i];
     const double duration = s - m.t;
     const Vec3 a = acceleration_of(state, i);
@@ -168,13 +171,13 @@ bool advance(State<Real>& state, Index i, double s, Entry& entry) {
     m.t = s;
     if (a == Vec3{}) {
         m.x = m.x + round_to_units(v * duration, state.resolution);
-        return false;
+        if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, v * duration, duration, entry);
+        return;
     }
     const Vec3 d = displacement(v, a, duration);
     m.x = m.x + round_to_units(d, state.resolution);
     m.v = rounded<Real>(v + a * duration);
-    book_way(state, i, a, d, duration, entry);
-    return true;
+    if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
 }
 
 } // namespace carom::core

@@ -4,33 +4,40 @@
 
 namespace carom::core {
 
-template <class Real>
-Census take_census(const Bodies<Real>& bodies) {
+void CensusTaker::add(const CensusTaker& other) {
+    const Int3& low = other.low_;
+    const Int3& high = other.high_;
+    low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y), std::min(low_.z, low.z)};
+    high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y), std::max(high_.z, high.z)};
+    radii_ += other.radii_;
+    speeds_ += other.speeds_;
+    top_squared_ = std::max(top_squared_, other.top_squared_);
+    moving_ += other.moving_;
+}
+
+Census CensusTaker::census() const {
     Census census;
-    if (bodies.size() == 0) return census;
-    census.low = census.high = bodies.motion.front().x;
-    double radii = 0;
-    double speeds = 0;
-    double top_squared = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        prefetch_ahead(bodies.motion.data() + i);
-        const Motion<Real>& m = bodies.motion[i];
-        census.low = {std::min(census.low.x, m.x.x), std::min(census.low.y, m.x.y), std::min(census.low.z, m.x.z)};
-        census.high = {std::max(census.high.x, m.x.x), std::max(census.high.y, m.x.y), std::max(census.high.z, m.x.z)};
-        if (bodies.kind[i] == Kind::fixed) continue;
-        const Vec3 v = velocity_of(m);
-        radii += static_cast<double>(m.radius);
-        speeds += std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-        top_squared = std::max(top_squared, length_squared(v));
-        ++census.moving;
-    }
-    census.top_speed = std::sqrt(top_squared);
-    if (census.moving > 0) {
-        census.mean_radius = radii / static_cast<double>(census.moving);
+    if (low_.x > high_.x) return census;
+    census.low = low_;
+    census.high = high_;
+    census.top_speed = std::sqrt(top_squared_);
+    census.moving = moving_;
+    if (moving_ > 0) {
+        census.mean_radius = radii_ / static_cast<double>(moving_);
         // Over all directions the sum of the components' sizes is 3/2 of the length.
-        census.typical_speed = speeds / 1.5 / static_cast<double>(census.moving);
+        census.typical_speed = speeds_ / 1.5 / static_cast<double>(moving_);
     }
     return census;
+}
+
+template <class Real>
+Census take_census(const Bodies<Real>& bodies) {
+    CensusTaker taker;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        prefetch_ahead(bodies.motion.data() + i);
+        taker.count(bodies.motion[i], bodies.kind[i]);
+    }
+    return taker.census();
 }
 
 template Census take_census(const Bodies<float>&);

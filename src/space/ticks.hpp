@@ -6,6 +6,7 @@
 #include "space/cells.hpp"
 
 #include <array>
+#include <limits>
 
 namespace carom::core {
 
@@ -17,6 +18,36 @@ struct Census {
     double typical_speed = 0; ///< m/s, the mean over the bodies that are not static: a few fast ones hardly count
     double top_speed = 0;     ///< m/s
     std::size_t moving = 0;   ///< bodies that are not static
+};
+
+/// Takes a census in parts, body by body.
+class CensusTaker {
+public:
+    template <class Real>
+    void count(const Motion<Real>& motion, Kind kind) {
+        const Int3& x = motion.x;
+        low_ = {std::min(low_.x, x.x), std::min(low_.y, x.y), std::min(low_.z, x.z)};
+        high_ = {std::max(high_.x, x.x), std::max(high_.y, x.y), std::max(high_.z, x.z)};
+        if (kind == Kind::fixed) return;
+        const Vec3 v = velocity_of(motion);
+        radii_ += static_cast<double>(motion.radius);
+        speeds_ += std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+        top_squared_ = std::max(top_squared_, length_squared(v));
+        ++moving_;
+    }
+    void add(const CensusTaker& other);
+    [[nodiscard]] Census census() const;
+
+private:
+    static constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
+    static constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
+
+    Int3 low_{highest, highest, highest};
+    Int3 high_{lowest, lowest, lowest};
+    double radii_ = 0;
+    double speeds_ = 0;
+    double top_squared_ = 0;
+    std::size_t moving_ = 0;
 };
 
 template <class Real>
@@ -31,17 +62,21 @@ public:
 
     /// The box of a body at `x` (units) that moves from `low` to `high` (m, relative to x) and has a radius (m).
     [[nodiscard]] SweptBox box(const Int3& x, const Vec3& low, const Vec3& high, double radius) const {
+        return box(of(x), low, high, radius);
+    }
+    /// The same for a place in ticks.
+    [[nodiscard]] SweptBox box(const std::array<Tick, 3>& x, const Vec3& low, const Vec3& high, double radius) const {
         SweptBox box;
         const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
         const double reach = farther(low.x, high.x) + farther(low.y, high.y) + farther(low.z, high.z) + radius;
         if (reach < surely_short_) {
-            set_axis(axes_[0], x.x, low.x - radius, high.x + radius, box.lo[0], box.length[0]);
-            set_axis(axes_[1], x.y, low.y - radius, high.y + radius, box.lo[1], box.length[1]);
-            set_axis(axes_[2], x.z, low.z - radius, high.z + radius, box.lo[2], box.length[2]);
+            set_axis(axes_[0], x[0], low.x - radius, high.x + radius, box.lo[0], box.length[0]);
+            set_axis(axes_[1], x[1], low.y - radius, high.y + radius, box.lo[1], box.length[1]);
+            set_axis(axes_[2], x[2], low.z - radius, high.z + radius, box.lo[2], box.length[2]);
         } else {
-            set_long_axis(axes_[0], x.x, low.x - radius, high.x + radius, box.lo[0], box.length[0]);
-            set_long_axis(axes_[1], x.y, low.y - radius, high.y + radius, box.lo[1], box.length[1]);
-            set_long_axis(axes_[2], x.z, low.z - radius, high.z + radius, box.lo[2], box.length[2]);
+            set_long_axis(axes_[0], x[0], low.x - radius, high.x + radius, box.lo[0], box.length[0]);
+            set_long_axis(axes_[1], x[1], low.y - radius, high.y + radius, box.lo[1], box.length[1]);
+            set_long_axis(axes_[2], x[2], low.z - radius, high.z + radius, box.lo[2], box.length[2]);
         }
         return box;
     }
@@ -49,6 +84,13 @@ public:
     /// A position, to within a tick along each axis.
     [[nodiscard]] std::array<Tick, 3> of(const Int3& x) const {
         return {base(axes_[0], x.x), base(axes_[1], x.y), base(axes_[2], x.z)};
+    }
+    /// The same, moved on by `d` (m, much less than the torus).
+    [[nodiscard]] std::array<Tick, 3> of(const Int3& x, const Vec3& d) const {
+        const auto moved = [](const Axis& axis, std::int64_t from, double metres) {
+            return base(axis, from) + static_cast<Tick>(static_cast<std::int64_t>(metres * axis.per_metre));
+        };
+        return {moved(axes_[0], x.x, d.x), moved(axes_[1], x.y, d.y), moved(axes_[2], x.z, d.z)};
     }
     [[nodiscard]] std::array<double, 3> metres_per_tick() const {
         return {1 / axes_[0].per_metre, 1 / axes_[1].per_metre, 1 / axes_[2].per_metre};
@@ -65,16 +107,16 @@ private:
         double per_metre = 0;   ///< ticks per m
     };
 
-    static void set_axis(const Axis& axis, std::int64_t x, double low, double high, Tick& lo, Tick& length) {
+    static void set_axis(const Axis& axis, Tick x, double low, double high, Tick& lo, Tick& length) {
         // A tick of room on each side for the truncations, and one for the rounding of x.
         const std::int64_t from = static_cast<std::int64_t>(low * axis.per_metre) - 2;
         const std::int64_t to = static_cast<std::int64_t>(high * axis.per_metre) + 2;
-        lo = base(axis, x) + static_cast<Tick>(from);
+        lo = x + static_cast<Tick>(from);
         length = static_cast<Tick>(to - from);
     }
 
     /// A box that may be longer than the torus: then it is all of it.
-    static void set_long_axis(const Axis& axis, std::int64_t x, double low, double high, Tick& lo, Tick& length) {
+    static void set_long_axis(const Axis& axis, Tick x, double low, double high, Tick& lo, Tick& length) {
         constexpr double most = 4.0e9;
         constexpr double far = 1.0e18;
         const double first = low * axis.per_metre;

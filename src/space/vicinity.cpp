@@ -4,183 +4,498 @@ namespace carom::core {
 
 namespace {
 
-/// Room is a float that is added to and taken from: this part of it is left for the roundings.
-constexpr double room_for_rounding = 1e-4;
+/// Loops over bodies have parts of at least so many.
+constexpr std::size_t body_grain = 4096;
+
+/// A body whose path in an epoch is longer than this many typical covers is too fast for single precision.
+constexpr double longest_track = 16;
+
+/// A body may have so many times the typical room: what needs more is covered along its path.
+constexpr double most_rooms = 4;
+
+/// s until a body may have come `gap` m nearer, at `speed` (m/s) and `acceleration` (m/s^2) at most.
+double time_to_cover(double gap, double speed, double acceleration) {
+    if (gap <= 0) return 0;
+    const double top = speed + std::sqrt(speed * speed + 2 * acceleration * gap);
+    return top > 0 ? 2 * gap / top : std::numeric_limits<double>::infinity();
+}
+
+void sort_and_unite(std::vector<Index>& bodies) {
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+}
 
 } // namespace
 
-template <class Real>
-double Vicinity<Real>::acceleration_size(Index body) const {
-    return state_.bodies.kind[body] == Kind::free ? gravity_ : length(acceleration_of(state_, body));
-}
+// ---------------------------------------------------------------------------------------------------------------------
+// Epochs
+// ---------------------------------------------------------------------------------------------------------------------
 
-/// m, at least what a body moves from `from` to `to` on a path, and what rounding may add. Of adjoining intervals the
-/// sum is no less than the whole's.
 template <class Real>
-double Vicinity<Real>::way(const Motion<Real>& motion, double acceleration, double from, double to) const {
-    const double top_speed = length(velocity_of(motion)) + acceleration * (state_.laws.kick_interval - motion.t);
-    return top_speed * (to - from) + 2 * state_.resolution.metres;
+void Vicinity<Real>::end_step(double reached) {
+    epoch_ -= reached;
+    if (kicked_) epoch_valid_ = false;
 }
 
 template <class Real>
-double Vicinity<Real>::path_length(Index body, double from, double to) const {
-    const double length = way(state_.bodies.motion[body], acceleration_size(body), from, to);
-    // A held body may be put back onto a curved support, by no more than it slid.
-    return state_.bodies.kind[body] == Kind::held ? 2 * length : length;
-}
-
-template <class Real>
-void Vicinity<Real>::prepare(const Census& census, double from, double to) {
-    gravity_ = length(state_.laws.gravity);
-    if (!update(from, to)) {
-        build(census, from, to);
-        // New covers are centred where the bodies were at their own times: their whole ways count.
-        start_bodies(0, to);
+void Vicinity<Real>::prepare(const Census& census, const Window& window, bool kicked) {
+    // The frame of the covers is another one then.
+    if (kicked != kicked_) forget();
+    kicked_ = kicked;
+    step_end_ = window.step_end;
+    exits_.clear();
+    if (continues_epoch(window)) {
+        ++window_;
+        window_start_ = relative(window.from);
+        window_end_ = static_cast<float>(exact_relative(window.to) + slack_ * length_);
+        if (window.from == 0) charge_held();
+        renew_disturbed();
+    } else {
+        start_epoch(census, window);
     }
-    std::sort(covered_anew_.begin(), covered_anew_.end());
-    covered_anew_.erase(std::unique(covered_anew_.begin(), covered_anew_.end()), covered_anew_.end());
+    calendar_.take_exits(window_, exits_);
+    renew_exits();
+    collect_due();
 }
 
-/// Carries the lists over from the last window; false if they had better be built anew.
+/// Whether the window is the next one of the epoch, as long as all others.
 template <class Real>
-bool Vicinity<Real>::update(double from, double to) {
-    if (!is_valid_ || neighbours_.crowded()) return false;
-    start_bodies(from, to);
-    return cover_strays(from, to);
+bool Vicinity<Real>::continues_epoch(const Window& window) const {
+    constexpr double rounding = 1e-9;
+    constexpr std::size_t few = 64;
+    if (!epoch_valid_ || window_ + 1 >= windows_ || neighbours_.crowded()) return false;
+    if (disturbed_.size() > few + state_.bodies.size() / 8) return false;
+    const double expected = length_ * (window_ + 1.0);
+    return std::abs(exact_relative(window.from) - expected) <= rounding * expected &&
+           std::abs((window.to - window.from) - length_) <= rounding * length_;
 }
 
-/// Takes the room that every body needs in the window.
 template <class Real>
-void Vicinity<Real>::start_bodies(double from, double to) {
-    const Bodies<Real>& bodies = state_.bodies;
-    near_walls_.clear();
-    strays_.clear();
-    for (Index i = 0; i < bodies.size(); ++i) {
-        prefetch_ahead(bodies.motion.data() + i);
-        const Motion<Real>& m = bodies.motion[i];
-        const auto radius = static_cast<double>(m.radius);
-        if (bodies.kind[i] == Kind::fixed) {
-            first_balls_[i] = balls_.ball(m.x, radius);
-            continue;
-        }
-        const double length = path_length(i, m.t, to);
-        const double reach = length + radius;
-        first_balls_[i] = balls_.ball(m.x, reach);
-        if (state_.bounds.may_touch(m.x, reach, state_.resolution)) near_walls_.push_back(i);
-        use_room(i, from == m.t ? length : path_length(i, from, to));
-        if (room_[i] < 0) strays_.push_back(i);
+void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
+    const double duration = window.to - window.from;
+    const double left = std::clamp(std::round((window.step_end - window.from) / duration), 1.0,
+                                   static_cast<double>(Calendar::most_windows));
+    const auto left_in_step = static_cast<std::uint32_t>(left);
+    calendar_.clear();
+    disturbed_.clear();
+    if (!kicked_ || !carry_on(window, left_in_step)) {
+        const std::uint32_t ahead = windows_worthwhile(census, duration);
+        set_epoch(window, kicked_ ? left_in_step : ahead);
+        build(census, window, ahead);
     }
+    turned_ = 0;
+    epoch_valid_ = true;
+    plan_all();
 }
 
-/// Gives the bodies without room new covers; false if there are so many that all had better be built anew.
 template <class Real>
-bool Vicinity<Real>::cover_strays(double from, double to) {
+void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
+    epoch_ = window.from;
+    length_ = window.to - window.from;
+    windows_ = windows;
+    window_ = 0;
+    const double duration = length_ * windows;
+    // The covers' frame must not change while they last, which may be for many steps if bodies are kicked.
+    frame_ = kicked_ ? Vec3{} : state_.laws.gravity;
+    fall_ = 0.5 * length(frame_) * duration * duration;
+    sag_ = 0.5 * length(state_.laws.gravity - frame_) * duration * duration;
+    window_start_ = 0;
+    window_end_ = static_cast<float>(length_ * (1 + slack_));
+}
+
+/// How many windows the lists had better last. Building costs about `fixed + a pair` a body each time, and every body
+/// that an impact turned looks at its neighbours: more windows mean more room, so more pairs, by its cube.
+template <class Real>
+std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double duration) const {
+    constexpr double fixed = 10; // all in units of one pair found
+    constexpr double looked_at = 0.5;
+    constexpr double first_guess = 6;
+    const auto moving = static_cast<double>(std::max<std::size_t>(census.moving, 1));
+    const double speed = census.typical_speed + length(state_.laws.gravity) * duration;
+    const double way = speed * duration;
+    if (!lists_valid_ || typical_size_ <= 0 || windows_ == 0) return static_cast<std::uint32_t>(first_guess);
+    const double reach_then = typical_size_;
+    const double pairs_then = static_cast<double>(neighbours_.pairs()) / moving;
+    const double turned_per_window = turned_ / (moving * (window_ + 1.0));
+    double best = std::numeric_limits<double>::infinity();
+    std::uint32_t windows = 1;
+    for (std::uint32_t k = 1; k <= Calendar::most_windows; ++k) {
+        const double reach = 2 * (census.mean_radius + way * k);
+        const double stretch = reach / reach_then;
+        const double pairs = pairs_then * stretch * stretch * stretch;
+        const double cost = (fixed + pairs) / k + looked_at * turned_per_window * pairs;
+        if (cost >= best) continue;
+        best = cost;
+        windows = k;
+    }
+    return windows;
+}
+
+/// Takes new tracks with the old lists; false if so many bodies have no room that the lists had better be built anew.
+template <class Real>
+bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
+    if (!lists_valid_ || neighbours_.crowded()) return false;
+    const float now = relative(window.from);
+    set_epoch(window, windows);
+    const auto needed = static_cast<float>(windows_ * length_);
+    std::array<std::size_t, most_parts> without_room{};
+    for_each_in_parts(*executor_, state_.bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
+        const auto body = static_cast<Index>(k);
+        take_track(body, room_at(body, now), 0);
+        if (room_at(body, needed) < 0) ++without_room[part];
+    });
+    charge_held();
+    std::size_t all = 0;
+    for (const std::size_t count : without_room) all += count;
     constexpr std::size_t few = 16;
-    constexpr std::size_t part = 32;
-    if (strays_.size() > few + state_.bodies.size() / part) return false;
-    for (const Index i : strays_) {
-        cover_anew(i, from, to);
-        use_room(i, path_length(i, state_.bodies.motion[i].t, to));
-    }
-    return true;
-}
-
-/// Longer lists cost more in each window, shorter ones are built more often: some pairs per body beyond those that come
-/// near in the window anyway are about as dear as the building, spread over the windows it lasts.
-template <class Real>
-void Vicinity<Real>::choose_horizon(const Census& census, double duration) {
-    constexpr double most_windows = 64;
-    constexpr double change = 1.25;
-    if (is_valid_) {
-        const auto moving = static_cast<double>(census.moving);
-        const auto pairs = static_cast<double>(neighbours_.pairs().size());
-        const double wanted = 2 * moving + 2 * static_cast<double>(candidates_);
-        windows_ahead_ =
-            std::clamp(pairs > wanted ? windows_ahead_ / change : windows_ahead_ * change, 1.0, most_windows);
-    }
-    typical_room_ = (census.typical_speed + gravity_ * duration) * duration * windows_ahead_;
+    constexpr std::size_t part_of_all = 32;
+    return all <= few + state_.bodies.size() / part_of_all;
 }
 
 template <class Real>
-void Vicinity<Real>::build(const Census& census, double from, double to) {
-    const Bodies<Real>& bodies = state_.bodies;
-    choose_horizon(census, to - from);
+void Vicinity<Real>::build(const Census& census, const Window& window, std::uint32_t windows_ahead) {
+    const std::size_t bodies = state_.bodies.size();
+    const double duration = window.to - window.from;
+    exits_.clear();
+    horizon_ = duration * windows_ahead;
+    typical_room_ = (census.typical_speed + length(state_.laws.gravity) * duration) * horizon_;
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
-    balls_ = Balls(ticks_);
-    covered_anew_.clear();
-    covers_.resize(bodies.size());
-    room_.resize(bodies.size());
-    first_balls_.resize(bodies.size());
-    for (Index i = 0; i < bodies.size(); ++i) {
-        prefetch_ahead(bodies.motion.data() + i);
-        covers_[i] = make_cover(i, to);
-        const double room = static_cast<double>(std::max(room_[i], 0.0F)) * (1 + 2 * room_for_rounding);
-        first_balls_[i] = balls_.ball(bodies.motion[i].x, radius_of(i) + room);
+    test_ = TrackTest(ticks_.metres_per_tick());
+    // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
+    reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
+    covers_.resize(bodies);
+    room_.resize(bodies);
+    tracks_.resize(bodies);
+    for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t, std::size_t k) {
+        const auto body = static_cast<Index>(k);
+        prefetch_ahead(state_.bodies.motion.data() + k);
+        covers_[body] = take_cover(body, 0);
+    });
+    neighbours_.build(covers_, ticks_.axes(census), [this](Index a, Index b) {
+        const bool both_fixed = state_.bodies.kind[a] == Kind::fixed && state_.bodies.kind[b] == Kind::fixed;
+        return !both_fixed && test_.balls_meet(tracks_[a], ball_room(a), tracks_[b], ball_room(b));
+    });
+    lists_valid_ = true;
+}
+
+/// m, how far around its start a body's centre stays, beyond what its track's reach says.
+template <class Real>
+float Vicinity<Real>::ball_room(Index body) const {
+    return state_.bodies.kind[body] == Kind::fixed ? 0 : std::max(room_[body], 0.0F);
+}
+
+/// Plans for every body, each pair once.
+template <class Real>
+void Vicinity<Real>::plan_all() {
+    for_each_in_parts(*executor_, state_.bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
+        const auto body = static_cast<Index>(k);
+        plan_exit(part, body, 0);
+        plan_wall(part, body, 0);
+        neighbours_.for_each(body, [&](Index other) {
+            if (other > body || state_.bodies.kind[other] == Kind::fixed) plan_pair(part, body, other, 0, 0);
+        });
+    });
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Windows
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Bodies that the caller changed since the last step.
+template <class Real>
+void Vicinity<Real>::renew_disturbed() {
+    sort_and_unite(disturbed_);
+    for (const Index body : disturbed_) {
+        take_track(body, room_at(body, window_start_), window_start_);
+        plan_meetings(0, body, window_start_, window_);
+        plan_exit(0, body, window_);
     }
-    neighbours_.build(covers_, ticks_.axes(census),
-                      [this](Index a, Index b) { return balls_.may_meet(first_balls_[a], first_balls_[b]); });
-    is_valid_ = true;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (room_[i] < 0) cover_along(i, {bodies.motion[i], acceleration_of(state_, i)}, from, to);
+    disturbed_.clear();
+}
+
+/// Bodies that may leave their covers in this window get new ones.
+template <class Real>
+void Vicinity<Real>::renew_exits() {
+    sort_and_unite(exits_);
+    for (const Index body : exits_) {
+        if (room_at(body, window_end_) < 0) {
+            cover_anew(body);
+            plan_meetings(0, body, window_start_, window_);
+        }
+        plan_exit(0, body, window_ + 1);
     }
 }
 
-/// The box of a body's ball; sets its room.
+/// Takes the room that the held bodies need in the step.
 template <class Real>
-SweptBox Vicinity<Real>::make_cover(Index body, double to) {
-    const Motion<Real>& m = state_.bodies.motion[body];
-    const auto radius = static_cast<double>(m.radius);
-    if (state_.bodies.kind[body] == Kind::fixed) {
-        room_[body] = 0;
-        return ticks_.box(m.x, {}, {}, radius);
+void Vicinity<Real>::charge_held() {
+    for (const auto& [slot, hold] : state_.bodies.holds) {
+        const Index body = state_.bodies.slots[slot].index;
+        room_[body] -= static_cast<float>(held_way(state_.bodies.motion[body], hold.acceleration));
+        if (room_[body] < 0) exits_.push_back(body);
     }
-    constexpr double most_rooms = 4;
-    const double length = path_length(body, m.t, to);
-    const double room = std::clamp(length * windows_ahead_, typical_room_, most_rooms * typical_room_);
-    if (length > room) {
-        room_[body] = -1;
-        return ticks_.box(m.x, {}, {}, radius);
-    }
-    room_[body] = static_cast<float>(room * (1 - room_for_rounding));
-    return ticks_.box(m.x, Vec3{-room, -room, -room}, Vec3{room, room, room}, radius);
+}
+
+/// m, at least what a held body moves until the end of the step; it may also be put back onto a curved support, by no
+/// more than it slid.
+template <class Real>
+double Vicinity<Real>::held_way(const Motion<Real>& motion, const Vec3& acceleration) const {
+    const double duration = step_end_ - motion.t;
+    return 2 * (length(velocity_of(motion)) + length(acceleration) * duration) * duration +
+           2 * state_.resolution.metres;
+}
+
+/// What the calendar has for this window.
+template <class Real>
+void Vicinity<Real>::collect_due() {
+    near_walls_.clear();
+    calendar_.take_walls(window_, near_walls_);
+    sort_and_unite(near_walls_);
+    due_.clear();
+    calendar_.take_pairs(window_, due_);
+    constexpr std::size_t grain = 2048;
+    for (std::vector<Pair>& kept : kept_) kept.clear();
+    for_each_in_parts(*executor_, due_.size(), grain, [&](std::size_t part, std::size_t k) {
+        constexpr std::size_t ahead = 12;
+        const Pair& soon = due_[std::min(k + ahead, due_.size() - 1)];
+        __builtin_prefetch(&tracks_[soon.first]);
+        __builtin_prefetch(&tracks_[soon.second]);
+        const auto [a, b] = due_[k];
+        const float time = test_.first_meeting(tracks_[a], tracks_[b], window_start_, epoch_end());
+        if (time == never) return;
+        if (time <= window_end_) {
+            kept_[part].push_back(due_[k]);
+        } else {
+            calendar_.add_pair(part, window_of(static_cast<double>(time), window_ + 1), a, b);
+        }
+    });
+    candidates_.clear();
+    for (const std::vector<Pair>& kept : kept_) candidates_.insert(candidates_.end(), kept.begin(), kept.end());
 }
 
 template <class Real>
-void Vicinity<Real>::cover_anew(Index body, double from, double to) {
-    covered_anew_.push_back(body);
-    neighbours_.cover_anew(body, make_cover(body, to),
-                           [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
-    if (room_[body] < 0) cover_along(body, {state_.bodies.motion[body], acceleration_of(state_, body)}, from, to);
-}
-
-template <class Real>
-void Vicinity<Real>::cover_along(Index body, const Flown<Real>& path, double from, double to) {
-    covered_anew_.push_back(body);
-    for_each_piece(path, from, to, [&](const SweptBox& box) {
+void Vicinity<Real>::cover_along(Index body, const Flown<Real>& path) {
+    for_each_piece(path, [&](const SweptBox& box) {
         neighbours_.extend_cover(body, box, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
     });
 }
 
-/// m, how far a body may be at any time until `to` from where the path `before` began.
 template <class Real>
-double Vicinity<Real>::strayed(Index body, const Flown<Real>& before, double to) const {
+float Vicinity<Real>::room_left(Index body, const Flown<Real>& path) const {
+    const float left = room_at(body, window_start_);
+    const Vec3& g = frame_;
+    const Flown<Real> before = flown(state_, body);
+    const double start = epoch_ + static_cast<double>(window_start_);
+    const double end = epoch_ + static_cast<double>(window_end_);
+    const auto place = [](const Flown<Real>& p, double time) {
+        return displacement(velocity_of(p.motion), p.acceleration, time - p.motion.t);
+    };
+    const Vec3 frame =
+        g * (0.5 * (exact_relative(end) * exact_relative(end) - exact_relative(start) * exact_relative(start)));
+    double distance = length(to_metres(path.motion.x - before.motion.x, state_.resolution) + place(path, end) -
+                             place(before, start) - frame) +
+                      reach_margin_;
+    const double duration = end - path.motion.t;
+    if (path.acceleration != g) distance += 0.5 * length(path.acceleration - g) * duration * duration;
+    if (path.kind == Kind::held) distance += held_way(path.motion, path.acceleration);
+    return static_cast<float>(static_cast<double>(left) - distance);
+}
+
+template <class Real>
+Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
+    return track_of(path, path.kind == Kind::held ? held_way(path.motion, path.acceleration) : 0);
+}
+
+template <class Real>
+void Vicinity<Real>::settle(std::span<const Turned> turned) {
+    turned_ += static_cast<double>(turned.size());
+    const bool is_last = window_ + 1 >= windows_;
+    if (is_last && !kicked_) return;
+    constexpr std::size_t grain = 512;
+    for_each_in_parts(*executor_, turned.size(), grain,
+                      [&](std::size_t, std::size_t k) { take_track(turned[k].body, turned[k].room, window_end_); });
+    if (is_last) return;
+    for (const Index body : near_walls_) plan_wall(0, body, window_ + 1);
+    for_each_in_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t k) {
+        plan_meetings(part, turned[k].body, window_end_, window_ + 1);
+        plan_exit(part, turned[k].body, window_ + 1);
+    });
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Tracks and covers
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Whether single precision and the torus of ticks do for a body.
+template <class Real>
+bool Vicinity<Real>::suits_tracks(double speed, double reach) const {
+    const double way = speed * length_ * windows_;
+    if (!(way < longest_track * typical_size_)) return false;
+    if (!state_.bounds.any_periodic()) return true;
+    constexpr double part_of_torus = 0x1p29;
+    const auto [x, y, z] = ticks_.metres_per_tick();
+    return reach + way < part_of_torus * std::min({x, y, z});
+}
+
+/// The track of a path in this epoch; one that is not in free flight stays within `room` (m).
+template <class Real>
+Track Vicinity<Real>::track_of(const Flown<Real>& path, double room) const {
+    constexpr double rounding = 2e-6;
+    const Motion<Real>& m = path.motion;
+    const Vec3& g = frame_;
+    const double now = exact_relative(m.t);
+    const bool is_free = path.kind == Kind::free;
+    const Vec3 v = is_free ? velocity_of(m) - g * now : Vec3{};
+    const double reach =
+        static_cast<double>(m.radius) * (1 + rounding) + reach_margin_ + (is_free ? sag_ : room + fall_);
+    Track track;
+    track.bend = is_free && sag_ == 0 ? 0 : 1;
+    if (!suits_tracks(length(v), reach)) {
+        track.start = ticks_.of(m.x);
+        track.reach = std::numeric_limits<float>::infinity();
+        return track;
+    }
+    track.start = ticks_.of(m.x, is_free ? v * -now + g * (-0.5 * now * now) : Vec3{});
+    track.reach = static_cast<float>(reach);
+    track.speed = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    return track;
+}
+
+/// A body goes its present way, with so much room at `now`.
+template <class Real>
+void Vicinity<Real>::take_track(Index body, float room, float now) {
+    const Kind kind = state_.bodies.kind[body];
+    tracks_[body] = track_of(flown(state_, body), std::max(0.0F, room));
+    if (kind == Kind::fixed) {
+        room_[body] = std::numeric_limits<float>::infinity();
+    } else if (std::isinf(tracks_[body].reach)) {
+        room_[body] = -1;
+    } else {
+        room_[body] = room - static_cast<float>(sag_) + speed_of(tracks_[body]) * now;
+    }
+}
+
+/// Takes the track and the room of a body that is to have a new cover, which is returned.
+template <class Real>
+SweptBox Vicinity<Real>::take_cover(Index body, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
-    return length(to_metres(m.x - before.motion.x, state_.resolution)) + path_length(body, m.t, to);
+    const auto radius = static_cast<double>(m.radius);
+    const Vec3& g = frame_;
+    if (state_.bodies.kind[body] == Kind::fixed) {
+        take_track(body, 0, now);
+        const Vec3 fallen = g * (-fall_ / std::max(length(g), std::numeric_limits<double>::min()));
+        const Vec3 low{std::min(0.0, fallen.x), std::min(0.0, fallen.y), std::min(0.0, fallen.z)};
+        const Vec3 high{std::max(0.0, fallen.x), std::max(0.0, fallen.y), std::max(0.0, fallen.z)};
+        return ticks_.box(m.x, low, high, radius + reach_margin_);
+    }
+    const double speed = length(velocity_of(m) - g * exact_relative(m.t));
+    const double needed = speed * length_ * (1 + 2 * slack_) + sag_;
+    // Some more than the body needs if nothing strikes it.
+    constexpr double spare = 1.05;
+    const double room = std::clamp(spare * speed * horizon_, typical_room_, most_rooms * typical_room_);
+    take_track(body, static_cast<float>(room), now);
+    if (needed > room || room_[body] < 0) {
+        room_[body] = -1;
+        tracks_[body].reach = std::numeric_limits<float>::infinity();
+        tracks_[body].speed = {};
+        return ticks_.box(m.x, {}, {}, radius);
+    }
+    const bool is_held = state_.bodies.kind[body] == Kind::held;
+    if (is_held) room_[body] -= static_cast<float>(held_way(m, acceleration_of(state_, body)));
+    const Vec3 own = state_.bodies.kind[body] == Kind::free ? place_at(m, now) : Vec3{};
+    const double extent = room + reach_margin_ + (is_held ? fall_ : sag_);
+    return ticks_.box(m.x, own - Vec3{extent, extent, extent}, own + Vec3{extent, extent, extent}, radius);
+}
+
+/// m from a free body's position to where it is in the falling frame at `now`.
+template <class Real>
+Vec3 Vicinity<Real>::place_at(const Motion<Real>& motion, float now) const {
+    const Vec3& g = frame_;
+    const double own = exact_relative(motion.t);
+    const Vec3 v = velocity_of(motion) - g * own;
+    return v * (static_cast<double>(now) - own) + g * (-0.5 * own * own);
 }
 
 template <class Real>
-bool Vicinity<Real>::follow(Index body, const Flown<Real>& before, double to) {
-    const double distance = strayed(body, before, to);
-    first_balls_[body].radius = std::max(first_balls_[body].radius, balls_.radius(distance + radius_of(body)));
-    const double used = way(before.motion, length(before.acceleration), before.motion.t, to);
-    return distance <= static_cast<double>(room_[body]) + used;
+void Vicinity<Real>::cover_anew(Index body) {
+    const SweptBox cover = take_cover(body, window_start_);
+    neighbours_.cover_anew(body, cover, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    if (room_[body] < 0) cover_along(body, flown(state_, body));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The calendar
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// The first window, from `earliest` on, that has not ended at a time (s since the epoch's start).
+template <class Real>
+std::uint32_t Vicinity<Real>::window_of(double time, std::uint32_t earliest) const {
+    const double window = time / length_ - slack_;
+    if (window >= windows_) return windows_;
+    return std::max(earliest, static_cast<std::uint32_t>(std::max(window, 0.0)));
+}
+
+/// Plans all that a body may meet after `from`.
+template <class Real>
+void Vicinity<Real>::plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest) {
+    plan_wall(part, body, earliest);
+    neighbours_.for_each(body, [&](Index other) { plan_pair(part, body, other, from, earliest); });
 }
 
 template <class Real>
-void Vicinity<Real>::settle(Index body, const Flown<Real>& before, double to) {
-    if (room_[body] < 0) return;
-    use_room(body, strayed(body, before, to) - way(before.motion, length(before.acceleration), before.motion.t, to));
+void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float from, std::uint32_t earliest) {
+    // Whoever is too fast for a track looks for others itself, in each window.
+    if (room_[b] < 0 && room_[a] >= 0) return;
+    const float time = test_.first_meeting(tracks_[a], tracks_[b], from, epoch_end());
+    if (time == never) return;
+    const std::uint32_t window = window_of(static_cast<double>(time), earliest);
+    if (window < windows_) calendar_.add_pair(part, window, a, b);
+}
+
+template <class Real>
+void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earliest) {
+    if (state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
+    const auto room = static_cast<double>(room_[body]);
+    const auto speed = static_cast<double>(speed_of(tracks_[body]));
+    if (room < 0) {
+        calendar_.add_exit(part, earliest, body);
+    } else if (speed * windows_ * length_ * (1 + slack_) > room) {
+        const std::uint32_t window = window_of(room / speed, earliest);
+        if (window < windows_) calendar_.add_exit(part, window, body);
+    }
+}
+
+template <class Real>
+void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
+    if (state_.bounds.walls().empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
+    if (state_.bodies.kind[body] == Kind::held) {
+        calendar_.add_wall(part, earliest, body);
+        return;
+    }
+    const double time = exact_relative(state_.bodies.motion[body].t) + first_wall_contact(body);
+    const std::uint32_t window = window_of(time, earliest);
+    if (window < windows_) calendar_.add_wall(part, window, body);
+}
+
+/// s from a free body's own time, before which it does not meet any wall.
+template <class Real>
+double Vicinity<Real>::first_wall_contact(Index body) const {
+    const Motion<Real>& m = state_.bodies.motion[body];
+    const Vec3 v = velocity_of(m);
+    const Vec3& g = state_.laws.gravity;
+    const auto radius = static_cast<double>(m.radius);
+    // Rounded positions may bring it nearer, and what touches may come to rest.
+    const double margin = 2.0 * Calendar::most_windows * state_.resolution.metres + 1e-9 * radius;
+    double first = std::numeric_limits<double>::infinity();
+    for (const Bounds::Wall& wall : state_.bounds.walls()) {
+        const double gap = state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) - margin;
+        const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;
+        const double speed = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
+        const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
+        first = std::min(first, time_to_cover(gap, speed, pull));
+    }
+    return first;
 }
 
 template class Vicinity<float>;

@@ -1,142 +1,214 @@
 /// \file
-/// Who may meet whom, for several windows.
+/// Who may meet whom in a window, from what lasts for many.
 #pragma once
 
-#include "space/balls.hpp"
+#include "space/calendar.hpp"
 #include "space/neighbours.hpp"
 #include "space/state.hpp"
+#include "space/ticks.hpp"
+#include "space/track.hpp"
 
 namespace carom::core {
 
-/// A body's path as it was.
+/// A part of a step, s since the start of the step.
+struct Window {
+    double from = 0;
+    double to = 0;
+    double step_end = 0;
+};
+
+/// A path: how a body moves until something strikes it.
 template <class Real>
 struct Flown {
     Motion<Real> motion{};
     Vec3 acceleration{}; ///< m/s^2
+    Kind kind = Kind::free;
 };
 
-/// Lists of neighbours that last. A body's cover is a ball's box with *room* for its centre to move in any direction,
-/// impacts or not; the lists hold until too many bodies have used their room up. A body that is too fast for a ball
-/// has boxes along its path instead, anew for each window.
+template <class Real>
+Flown<Real> flown(const State<Real>& state, Index i) {
+    return {state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i]};
+}
+
+/// Lists of neighbours, tracks, and a calendar of when bodies may meet. All hold for an *epoch* of several windows, so
+/// that a body which meets nobody in a window costs nothing there.
+///
+/// A body's cover is the box of a ball with *room* for its centre to move in any direction, impacts or not. A body that
+/// uses its room up gets a new one; a body that is too fast for a ball has boxes along its path, anew in each window.
+/// Covers lie in the falling frame of tracks. Times that are float are s since the epoch's start.
 template <class Real>
 class Vicinity {
 public:
+    using Pair = Calendar::Pair;
+
     explicit Vicinity(State<Real>& state) : state_(state) {}
 
-    /// Bodies were added, removed, or moved other than by a window.
-    void forget() { is_valid_ = false; }
+    void use(Executor& executor) { executor_ = &executor; }
 
-    /// Start of a window, [from, to] in s since the start of the step: covers every body's path. What each body can
-    /// reach without an impact counts as used up.
-    void prepare(const Census& census, double from, double to);
+    /// Bodies were added, removed, moved, or changed places in memory.
+    void forget() { lists_valid_ = epoch_valid_ = false; }
+    /// A body's velocity or hold was changed from outside, between two steps.
+    void disturb(Index body) {
+        if (epoch_valid_) disturbed_.push_back(body);
+    }
+    /// A step ended after `reached` s.
+    void end_step(double reached);
+    /// The next window makes everything anew: bodies may change places in memory at no cost.
+    [[nodiscard]] bool is_about_to_build() const { return !lists_valid_ || (!kicked_ && window_ + 1 >= windows_); }
 
-    /// Calls f(a, b) for every pair of neighbours whose first balls meet, once or more often.
-    template <class F>
-    void for_each_pair(F&& f) const {
-        const auto look = [&](Index a, Index b) {
-            if (balls_.may_meet(first_balls_[a], first_balls_[b])) f(a, b);
-        };
-        const std::span<const Neighbours::Pair> pairs = neighbours_.pairs();
-        constexpr std::size_t ahead = 24;
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            __builtin_prefetch(&first_balls_[pairs[std::min(k + ahead, pairs.size() - 1)].second]);
-            look(pairs[k].first, pairs[k].second);
-        }
-        for (const Index a : covered_anew_) neighbours_.for_each(a, [&](Index b) { look(a, b); });
+    /// Start of a window. Drag and attractors change all velocities between steps: `kicked`.
+    void prepare(const Census& census, const Window& window, bool kicked);
+    /// Pairs that may meet in the window, some perhaps twice.
+    [[nodiscard]] const std::vector<Pair>& candidates() const { return candidates_; }
+    /// One of the candidates does not meet in this window.
+    void defer(std::size_t part, const Pair& pair) {
+        // Whoever has no room looks for others itself, in each window.
+        if (window_ + 1 >= windows_ || room_[pair.first] < 0 || room_[pair.second] < 0) return;
+        calendar_.add_pair(part, window_ + 1, pair.first, pair.second);
+    }
+    /// Bodies that may touch a wall in the window unless something strikes them.
+    [[nodiscard]] const std::vector<Index>& near_walls() const { return near_walls_; }
+
+    /// The track of a body as it began the window.
+    [[nodiscard]] const Track& track(Index body) const { return tracks_[body]; }
+    /// The track of a path until the window's end.
+    [[nodiscard]] Track track_in_window(const Flown<Real>& path) const;
+    /// Whether two tracks may meet between `now` (s since the start of the step), in this window, and its end.
+    [[nodiscard]] bool may_meet(const Track& a, const Track& b, double now) const {
+        return test_.first_meeting(a, b, relative(now), window_end_) != never;
     }
     /// Calls f(other) for every neighbour of a body, once or more often.
     template <class F>
     void for_each(Index body, F&& f) const {
         neighbours_.for_each(body, f);
     }
-    /// Asks for the memory that for_each() will need.
     void prefetch(Index body) const { neighbours_.prefetch(body); }
-    /// Asks for the balls of a body's neighbours.
-    void prefetch_balls(Index body) const {
-        neighbours_.for_each(body, [this](Index other) { __builtin_prefetch(&first_balls_[other]); });
+    void prefetch_tracks(Index body) const {
+        neighbours_.for_each(body, [this](Index other) { __builtin_prefetch(&tracks_[other]); });
     }
-    /// Bodies that may touch a wall in the window unless something strikes them.
-    [[nodiscard]] const std::vector<Index>& near_walls() const { return near_walls_; }
 
-    /// The ball that holds a body's path from its own time to `to`.
-    [[nodiscard]] Ball ball_of(Index body, double to) const {
-        return balls_.ball(state_.bodies.motion[body].x,
-                           path_length(body, state_.bodies.motion[body].t, to) + radius_of(body));
-    }
-    /// A ball that holds its path from the start of the window on, whatever it meets.
-    [[nodiscard]] const Ball& first_ball(Index body) const { return first_balls_[body]; }
-    [[nodiscard]] bool may_meet(const Ball& a, const Ball& b) const { return balls_.may_meet(a, b); }
-
-    /// How many pairs of neighbours the balls did not tell apart: what the lists cost beyond that is what they could
-    /// save.
-    void note_candidates(std::size_t pairs) { candidates_ = pairs; }
-
-    /// A body takes another path than `before`, on which the window began: widens its first ball accordingly. Whether
-    /// the body stays in its cover.
-    bool follow(Index body, const Flown<Real>& before, double to);
-    /// Calls f(other) for every body whose cover a path meets until `to`, once or more often.
+    /// m, what is left of a body's room when it ends the window on a new path; negative if it leaves its cover.
+    [[nodiscard]] float room_left(Index body, const Flown<Real>& path) const;
+    /// Calls f(other) for every body whose cover a path meets from its start to the window's end, once or more often.
     template <class F>
-    void for_each_along(const Flown<Real>& path, double to, F&& f) const {
-        for_each_piece(path, path.motion.t, to, [&](const SweptBox& box) { neighbours_.for_each_meeting(box, f); });
+    void for_each_along(const Flown<Real>& path, F&& f) const {
+        for_each_piece(path, [&](const SweptBox& box) { neighbours_.for_each_meeting(box, f); });
     }
-    /// Covers a body on one more path.
-    void cover_along(Index body, const Flown<Real>& path, double from, double to);
-    /// End of a window for a body that had impacts.
-    void settle(Index body, const Flown<Real>& before, double to);
+    /// Covers a body on one more path, until the window's end.
+    void cover_along(Index body, const Flown<Real>& path);
+
+    /// A body that ends the window on a new path, and what is left of its room.
+    struct Turned {
+        Index body = no_index;
+        float room = 0;
+    };
+    /// End of a window.
+    void settle(std::span<const Turned> turned);
 
 private:
-    [[nodiscard]] double radius_of(Index body) const { return static_cast<double>(state_.bodies.motion[body].radius); }
-    [[nodiscard]] double acceleration_size(Index body) const;
-    [[nodiscard]] double way(const Motion<Real>& motion, double acceleration, double from, double to) const;
-    [[nodiscard]] double path_length(Index body, double from, double to) const;
-    [[nodiscard]] double strayed(Index body, const Flown<Real>& before, double to) const;
-    void use_room(Index body, double length) {
-        constexpr double far = 1e30;
-        room_[body] -= static_cast<float>(std::min(length, far));
-    }
+    /// s since the epoch's start, of a time since the step's start.
+    [[nodiscard]] double exact_relative(double time) const { return time - epoch_; }
+    [[nodiscard]] float relative(double time) const { return static_cast<float>(exact_relative(time)); }
+    [[nodiscard]] float epoch_end() const { return static_cast<float>((windows_ + slack_) * length_); }
+
+    [[nodiscard]] bool continues_epoch(const Window& window) const;
+    void start_epoch(const Census& census, const Window& window);
+    void set_epoch(const Window& window, std::uint32_t windows);
+    [[nodiscard]] float ball_room(Index body) const;
+    [[nodiscard]] std::uint32_t windows_worthwhile(const Census& census, double duration) const;
+    [[nodiscard]] bool carry_on(const Window& window, std::uint32_t windows);
+    void build(const Census& census, const Window& window, std::uint32_t windows_ahead);
+    void plan_all();
+    void collect_due();
+    void renew_disturbed();
+    void renew_exits();
+    void charge_held();
+    [[nodiscard]] double held_way(const Motion<Real>& motion, const Vec3& acceleration) const;
+
+    [[nodiscard]] bool suits_tracks(double speed, double reach) const;
+    [[nodiscard]] Track track_of(const Flown<Real>& path, double room) const;
+    void take_track(Index body, float room, float now);
+    [[nodiscard]] float room_at(Index body, float now) const { return room_[body] - speed_of(tracks_[body]) * now; }
+    SweptBox take_cover(Index body, float now);
+    [[nodiscard]] Vec3 place_at(const Motion<Real>& motion, float now) const;
+    void cover_anew(Index body);
+
+    void plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest);
+    void plan_pair(std::size_t part, Index a, Index b, float from, std::uint32_t earliest);
+    void plan_exit(std::size_t part, Index body, std::uint32_t earliest);
+    void plan_wall(std::size_t part, Index body, std::uint32_t earliest);
+    [[nodiscard]] double first_wall_contact(Index body) const;
+    [[nodiscard]] std::uint32_t window_of(double time, std::uint32_t earliest) const;
 
     template <class F>
-    void for_each_piece(const Flown<Real>& path, double from, double to, F&& f) const;
+    void for_each_piece(const Flown<Real>& path, F&& f) const;
 
-    void build(const Census& census, double from, double to);
-    void choose_horizon(const Census& census, double duration);
-    bool update(double from, double to);
-    void start_bodies(double from, double to);
-    bool cover_strays(double from, double to);
-    SweptBox make_cover(Index body, double to);
-    void cover_anew(Index body, double from, double to);
+    /// Of a window: more than the roundings of single precision put a time wrong.
+    static constexpr double slack_ = 1e-3;
 
     State<Real>& state_;
-    bool is_valid_ = false;
+    Executor* executor_ = nullptr;
+
+    // What lasts until the lists are built anew.
+    bool lists_valid_ = false;
     Ticks ticks_;
-    Balls balls_;
+    TrackTest test_;
     Neighbours neighbours_;
-    std::vector<SweptBox> covers_;
-    std::vector<float> room_; ///< m, per body: how far its centre may still move; negative: not at all
-    std::vector<Ball> first_balls_;
+    double typical_room_ = 0; ///< m
+    double typical_size_ = 0; ///< m, of a cover
+    double reach_margin_ = 0; ///< m, added to radii: more than all roundings of tracks
+    double horizon_ = 0;      ///< s that covers are meant to do for
+
+    // The epoch.
+    bool epoch_valid_ = false;
+    bool kicked_ = false;       ///< velocities change in every step, and so do tracks
+    double epoch_ = 0;          ///< s since the start of the step, when the epoch began
+    double length_ = 0;         ///< s, of a window
+    double step_end_ = 0;       ///< s since the start of the step
+    std::uint32_t windows_ = 0; ///< in the epoch
+    std::uint32_t window_ = 0;  ///< the present one
+    Vec3 frame_{};              ///< m/s^2, the acceleration of the frame: gravity, or none where bodies are kicked
+    double fall_ = 0;           ///< m that the frame falls during the epoch
+    double sag_ = 0;            ///< m that a free body falls in the frame
+    double turned_ = 0;         ///< bodies that ended a window of the epoch on a new path
+    std::vector<Track> tracks_;
+    std::vector<float> room_; ///< m, per body: its room at the epoch's start, had it always been on its track
+    Calendar calendar_;
+
+    // The window.
+    float window_start_ = 0;
+    float window_end_ = 0;
+    std::vector<Pair> due_;
+    std::vector<Pair> candidates_;
     std::vector<Index> near_walls_;
-    std::vector<Index> strays_;       ///< bodies whose room does not do
-    std::vector<Index> covered_anew_; ///< since the lists were built
-    std::size_t candidates_ = 0;
-    double gravity_ = 0;       ///< m/s^2
-    double windows_ahead_ = 4; ///< that the lists are meant to last
-    double typical_room_ = 0;  ///< m
-    double typical_size_ = 0;  ///< m, of a cover
+    std::vector<Index> exits_;
+    std::vector<Index> disturbed_;
+    std::vector<SweptBox> covers_;
+    std::array<std::vector<Pair>, most_parts> kept_;
 };
 
 /// Cuts a path into pieces that are not much longer than covers are wide: the box of a long slanted path would hold
 /// far too much.
 template <class Real>
 template <class F>
-void Vicinity<Real>::for_each_piece(const Flown<Real>& path, double from, double to, F&& f) const {
+void Vicinity<Real>::for_each_piece(const Flown<Real>& path, F&& f) const {
     constexpr double most_pieces = 64;
-    const double length = way(path.motion, carom::length(path.acceleration), from, to);
-    const double wanted = std::clamp(std::ceil(length / (2 * typical_size_)), 1.0, most_pieces);
+    const Vec3& g = frame_;
+    const double own = exact_relative(path.motion.t);
+    const double begin = std::max(own, static_cast<double>(window_start_)) - own;
+    const double end = static_cast<double>(window_end_) - own;
+    const Vec3 v = velocity_of(path.motion) - g * own;
+    const Vec3 fallen = g * (-0.5 * own * own);
+    const double bend = 0.5 * length(path.acceleration - g) * end * end;
+    const double reach = static_cast<double>(path.motion.radius) + 2 * reach_margin_ + bend;
+    const double wanted = std::clamp(std::ceil(length(v) * (end - begin) / (2 * typical_size_)), 1.0, most_pieces);
     const auto pieces = static_cast<int>(wanted);
     for (int k = 0; k < pieces; ++k) {
-        const double start = from + (to - from) * (k / wanted);
-        const double end = k + 1 == pieces ? to : from + (to - from) * ((k + 1) / wanted);
-        f(swept_box(ticks_, path.motion, path.acceleration, start, end, 2 * state_.resolution.metres));
+        const Vec3 a = fallen + v * (begin + (end - begin) * (k / wanted));
+        const Vec3 b = fallen + v * (begin + (end - begin) * ((k + 1) / wanted));
+        const Vec3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+        const Vec3 high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+        f(ticks_.box(path.motion.x, low, high, reach));
     }
 }
 

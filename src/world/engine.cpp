@@ -98,6 +98,7 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     state_.bodies.interpolating = options.interpolation;
     outcome_.record = options.record_impacts;
     outcome_.least_impulse = options.least_recorded_impulse;
+    set_executor(make_default_executor(options.threads));
 }
 
 template <class Real>
@@ -105,13 +106,15 @@ Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
       outcome_(other.outcome_), impacts_(other.impacts_), serial_(state_), islands_(state_, serial_),
-      placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_),
-      steps_since_order_(other.steps_since_order_) {}
+      placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_) {
+    set_executor(other.executor_);
+}
 
 template <class Real>
 void Engine<Real>::set_gravity(const Vec3& gravity) {
     check_finite(gravity, "gravity");
     setting_.options.gravity = state_.laws.gravity = gravity;
+    islands_.vicinity().forget();
 }
 
 template <class Real>
@@ -159,7 +162,20 @@ template <class Real>
 void Engine<Real>::set_serial_reference(bool serial_reference) {
     setting_.options.serial_reference = serial_reference;
     // Meanwhile the one that rests does not see where bodies go.
-    islands_.forget();
+    islands_.vicinity().forget();
+}
+
+template <class Real>
+void Engine<Real>::set_threads(unsigned threads) {
+    setting_.options.threads = threads;
+    set_executor(make_default_executor(threads));
+}
+
+template <class Real>
+void Engine<Real>::set_executor(std::shared_ptr<Executor> executor) {
+    if (!executor) throw Error(ErrorCode::out_of_range, "executor", "must not be null");
+    executor_ = std::move(executor);
+    islands_.use(executor_);
 }
 
 template <class Real>

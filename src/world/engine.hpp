@@ -9,6 +9,8 @@
 
 #include <carom/world.hpp>
 
+#include <optional>
+
 namespace carom::core {
 
 /// Windows that a step can be cut into.
@@ -66,6 +68,8 @@ public:
     void set_work_cap(std::uint64_t work_cap) { setting_.options.work_cap = work_cap; }
     void set_min_windows(std::uint32_t min_windows);
     void set_serial_reference(bool serial_reference);
+    void set_threads(unsigned threads);
+    void set_executor(std::shared_ptr<Executor> executor);
 
     // engine_sums.cpp
     [[nodiscard]] Energy energy() const;
@@ -111,7 +115,17 @@ private:
     void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
-    Progress resolve_window(const Census& census, double from, double to);
+    Progress resolve_window(const Census& census, const Window& window);
+    /// Drag or attractors change velocities at the ends of steps.
+    [[nodiscard]] bool has_kicks() const;
+    void start_holds(double dt);
+    /// Bodies were changed from outside.
+    void forget_sums() {
+        census_.reset();
+        moving_mass_.reset();
+    }
+    [[nodiscard]] Census take_census_in_parts() const;
+    [[nodiscard]] double sum_moving_mass() const;
     void report_solvers();
     void finish_bodies(double reached);
     void keep_spatial_order();
@@ -127,11 +141,12 @@ private:
 
     // snapshot.cpp
     template <class Archive>
-    void transfer(Archive& archive);
+    void transfer(Archive& archive, Bodies<Real>& bodies);
     void check_loaded() const;
     [[nodiscard]] bool arrays_are_sound() const;
     [[nodiscard]] bool slots_are_sound() const;
     [[nodiscard]] bool bodies_are_sound() const;
+    [[nodiscard]] bool flights_are_sound() const;
     [[nodiscard]] bool holds_are_sound() const;
     [[nodiscard]] bool attractors_are_sound() const;
 
@@ -145,12 +160,17 @@ private:
     StepReport report_;
     Outcome outcome_;
     std::vector<Impact> impacts_;
+    std::shared_ptr<Executor> executor_;
     SerialSolver<Real> serial_;
     IslandSolver<Real> islands_;
     Placement<Real> placement_;
-    double last_start_ = 0;               ///< s, when the last step began
-    double last_step_ = 0;                ///< s, how far it came
-    std::uint32_t steps_since_order_ = 0; ///< since the bodies were last put in spatial order
+    double last_start_ = 0; ///< s, when the last step began
+    double last_step_ = 0;  ///< s, how far it came
+    /// Since the bodies were last put in spatial order.
+    std::uint32_t steps_since_order_ = std::numeric_limits<std::uint32_t>::max();
+    std::optional<Census> census_;      ///< of the bodies as they are, if they have not changed since
+    std::optional<double> moving_mass_; ///< kg, of the bodies that are not static
+    std::vector<Index> released_;       ///< bodies that were let go at the start of the step
 };
 
 } // namespace carom::core

@@ -224,8 +224,9 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         if (element(columns.velocity, k, Vec3{}) == Vec3{}) continue;
         throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
     }
-    islands_.forget();
+    islands_.vicinity().forget();
     const std::size_t first_new = size();
+    forget_sums();
     constexpr std::size_t most_bodies = 0x7fffffffU;
     if (count > most_bodies - first_new) {
         throw Error(ErrorCode::out_of_range, "position", "a world has at most 2^31 - 1 bodies");
@@ -292,7 +293,7 @@ void Engine<Real>::check_moved(const std::vector<Index>& indices) {
 template <class Real>
 void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap) {
     if (columns.position.empty() && columns.radius.empty() && columns.mass.empty()) return;
-    islands_.forget();
+    islands_.vicinity().forget();
     Bodies<Real>& bodies = state_.bodies;
     const std::vector<Int3> positions = positions_of(columns);
     struct Former {
@@ -345,6 +346,7 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     check_values(columns, ids.size());
     const std::vector<Index> indices = indices_of(ids);
     check_static_rule(columns, indices);
+    forget_sums();
     const std::vector<Kind> former_kinds = [&] {
         std::vector<Kind> kinds(indices.size());
         for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
@@ -355,6 +357,7 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
+        islands_.vicinity().disturb(indices[k]);
         if (former_kinds[k] == Kind::fixed && moved) release_from(state_.bodies, ids[k].slot);
         if (former_kinds[k] != Kind::held) continue;
         state_.bodies.holds.erase(ids[k].slot);
@@ -372,8 +375,9 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         throw Error(ErrorCode::unknown_body, "id", "the body is named twice",
                     static_cast<std::size_t>(ids.rend() - last) - 1);
     }
-    islands_.forget();
+    islands_.vicinity().forget();
     for (const BodyId id : ids) {
+        forget_sums();
         const Index index = state_.bodies.slots[id.slot].index;
         if (state_.bodies.kind[index] == Kind::fixed) release_from(state_.bodies, id.slot);
         drop_attractors_of(id);
@@ -405,6 +409,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
         if (bodies.kind[indices[k]] == Kind::fixed) throw Error(ErrorCode::out_of_range, "id", "the body is static", k);
     }
     std::vector<Vector3<Real>> formers(indices.size());
+    forget_sums();
     for (std::size_t k = 0; k < indices.size(); ++k) {
         Motion<Real>& m = bodies.motion[indices[k]];
         formers[k] = m.v;
@@ -415,7 +420,10 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
         for (std::size_t j = k + 1; j-- > 0;) bodies.motion[indices[j]].v = formers[j];
         throw Error(ErrorCode::out_of_range, field, "the velocity does not fit the world's precision", k);
     }
-    for (const Index i : indices) release(bodies, i);
+    for (const Index i : indices) {
+        release(bodies, i);
+        islands_.vicinity().disturb(i);
+    }
 }
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \

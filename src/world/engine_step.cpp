@@ -7,6 +7,9 @@ namespace carom::core {
 
 namespace {
 
+/// Loops over bodies have parts of at least so many.
+constexpr std::size_t body_grain = 4096;
+
 /// How many windows a step is cut into. Longer windows mean longer swept boxes and more pairs that never meet; shorter
 /// ones more sorting. Results do not depend on it.
 std::uint32_t window_count(const Census& census, const Bounds& bounds, const Resolution& resolution, double dt) {
@@ -82,17 +85,18 @@ const StepReport& Engine<Real>::step(double dt) {
                     "must be at most " + shown(Clock::longest_interval) + " s, got " + shown(dt));
     }
     state_.laws.fields = placed_fields();
-    const Census census = take_census(state_.bodies);
+    const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
     begin_step(dt);
     report_.seconds.cells += watch.lap();
     first_kick(0.5 * dt);
-    refresh_holds(state_, dt);
+    start_holds(dt);
     report_.seconds.forces += watch.lap();
+    keep_spatial_order();
+    report_.seconds.bodies += watch.lap();
     const double reached = resolve_impacts(census, dt);
     watch.lap();
     finish_bodies(reached);
-    keep_spatial_order();
     report_.seconds.bodies += watch.lap();
     settle_holds(state_);
     last_kick(reached - 0.5 * dt);
@@ -102,13 +106,26 @@ const StepReport& Engine<Real>::step(double dt) {
 }
 
 template <class Real>
+bool Engine<Real>::has_kicks() const {
+    const Drag& drag = setting_.options.drag;
+    return drag.linear != 0 || drag.quadratic != 0 || !state_.laws.fields.empty();
+}
+
+template <class Real>
+void Engine<Real>::start_holds(double dt) {
+    released_.clear();
+    refresh_holds(state_, dt, released_);
+    for (const Index body : released_) islands_.vicinity().disturb(body);
+}
+
+template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
     outcome_.impacts = outcome_.face_impacts = outcome_.tc_conversions = 0;
     outcome_.records.clear();
     state_.laws.kick_interval = dt;
-    state_.books.mass_time = {};
+    state_.books.held_mass_time = {};
     if (!state_.bodies.interpolating) return;
     for (Index i = 0; i < size(); ++i) state_.bodies.previous[i] = state_.bodies.motion[i].x;
 }
@@ -122,7 +139,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
         const double to = k + 1 == windows ? dt : dt * (static_cast<double>(k + 1) / windows);
         // A window ends before its time when it is worth building the lists of neighbours anew.
         do {
-            progress = resolve_window(census, progress.reached, to);
+            progress = resolve_window(census, {progress.reached, to, dt});
             ++report_.windows;
         } while (progress.reached < to && !progress.work_cap_reached && !progress.edge_reached);
         if (progress.work_cap_reached || progress.edge_reached) break;
@@ -134,10 +151,10 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 }
 
 template <class Real>
-Progress Engine<Real>::resolve_window(const Census& census, double from, double to) {
+Progress Engine<Real>::resolve_window(const Census& census, const Window& window) {
     const std::uint64_t work_cap = setting_.options.work_cap;
-    if (setting_.options.serial_reference) return serial_.resolve(census, from, to, work_cap, outcome_);
-    return islands_.resolve(census, from, to, work_cap, outcome_);
+    if (setting_.options.serial_reference) return serial_.resolve(census, window.from, window.to, work_cap, outcome_);
+    return islands_.resolve(census, window, has_kicks(), work_cap, outcome_);
 }
 
 template <class Real>
@@ -156,32 +173,66 @@ void Engine<Real>::report_solvers() {
     }
 }
 
+/// Brings all bodies to the end of the step, and takes their census on the way.
 template <class Real>
 void Engine<Real>::finish_bodies(double reached) {
     Bodies<Real>& bodies = state_.bodies;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        prefetch_ahead(bodies.motion.data() + i);
-        prefetch_ahead(bodies.trait.data() + i);
-        if (bodies.kind[i] == Kind::fixed) continue;
-        Trait<Real>& trait = bodies.trait[i];
+    // What is held goes into the books, in the order of ids.
+    for (const auto& [slot, hold] : bodies.holds) {
         Entry entry;
-        if (advance(state_, i, reached, entry)) state_.books.add(entry);
-        Motion<Real>& m = bodies.motion[i];
-        if (state_.bounds.any_periodic()) m.x = state_.bounds.wrapped(m.x);
-        m.t = 0;
-        if (trait.flight.quick_impacts == 0) continue;
-        trait.flight.last_impact -= reached;
-        if (-trait.flight.last_impact > state_.laws.collapse_time) trait.flight = {};
+        advance(state_, bodies.slots[slot].index, reached, entry);
+        state_.books.add(entry);
     }
+    std::array<CensusTaker, most_parts> takers{};
+    const bool is_periodic = state_.bounds.any_periodic();
+    for_each_in_parts(*executor_, bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
+        const auto i = static_cast<Index>(k);
+        prefetch_ahead(bodies.motion.data() + i);
+        Motion<Real>& m = bodies.motion[i];
+        if (bodies.kind[i] == Kind::free) {
+            Entry none;
+            advance(state_, i, reached, none);
+        }
+        if (is_periodic && bodies.kind[i] != Kind::fixed) m.x = state_.bounds.wrapped(m.x);
+        m.t = 0;
+        takers[part].count(m, bodies.kind[i]);
+    });
+    for (std::size_t part = 1; part < most_parts; ++part) takers[0].add(takers[part]);
+    census_.reset();
+    if (!has_kicks()) census_ = takers[0].census();
+    for (RecentFlight& recent : bodies.recent_flights) recent.flight.last_impact -= reached;
+}
+
+template <class Real>
+Census Engine<Real>::take_census_in_parts() const {
+    std::array<CensusTaker, most_parts> takers{};
+    for_each_in_parts(*executor_, size(), body_grain, [&](std::size_t part, std::size_t i) {
+        prefetch_ahead(state_.bodies.motion.data() + i);
+        takers[part].count(state_.bodies.motion[i], state_.bodies.kind[i]);
+    });
+    for (std::size_t part = 1; part < most_parts; ++part) takers[0].add(takers[part]);
+    return takers[0].census();
+}
+
+template <class Real>
+double Engine<Real>::sum_moving_mass() const {
+    ExactSum sum;
+    for (Index i = 0; i < size(); ++i) {
+        if (state_.bodies.kind[i] != Kind::fixed) sum.add(static_cast<double>(state_.bodies.trait[i].mass));
+    }
+    return sum.value();
 }
 
 template <class Real>
 void Engine<Real>::keep_spatial_order() {
     // Rarely enough to cost little, often enough that neighbours stay near in memory.
-    constexpr std::uint32_t steps_between = 16;
-    if (steps_since_order_++ % steps_between != 0) return;
-    // By positions alone: a world that was saved and loaded keeps the same order as one that went on.
-    const Census census = take_census(state_.bodies);
+    constexpr std::uint32_t least_steps = 16;
+    constexpr std::uint32_t most_steps = 64;
+    if (steps_since_order_ < std::numeric_limits<std::uint32_t>::max()) ++steps_since_order_;
+    const bool is_cheap = setting_.options.serial_reference || islands_.vicinity().is_about_to_build();
+    if (steps_since_order_ < (is_cheap ? least_steps : most_steps)) return;
+    steps_since_order_ = 0;
+    const Census census = take_census_in_parts();
     const double scale = std::max(4 * census.mean_radius, setting_.resolution.metres);
     const Ticks ticks(state_.bounds, setting_.resolution, scale);
     std::vector<SweptBox> boxes(size());
@@ -194,16 +245,21 @@ void Engine<Real>::keep_spatial_order() {
     std::vector<Index> order;
     cells.spatial_order(order);
     reorder(state_.bodies, order);
-    islands_.forget();
+    islands_.vicinity().forget();
 }
 
 template <class Real>
 void Engine<Real>::finish_step(double dt, double reached) {
     const double start = clock_.seconds();
     if (reached > 0) clock_.advance(reached);
+    islands_.vicinity().end_step(reached);
     last_start_ = start;
     last_step_ = reached;
-    state_.books.outer_impulse.add(state_.laws.gravity * state_.books.mass_time.value());
+    if (state_.laws.gravity != Vec3{}) {
+        if (!moving_mass_) moving_mass_ = sum_moving_mass();
+        const double free_mass_time = *moving_mass_ * reached - state_.books.held_mass_time.value();
+        state_.books.outer_impulse.add(state_.laws.gravity * free_mass_time);
+    }
     report_.advanced = reached;
     report_.behind = dt - reached;
     report_.impacts = outcome_.impacts;

@@ -8,6 +8,9 @@ namespace carom::core {
 
 namespace {
 
+/// Loops over bodies have parts of at least so many.
+constexpr std::size_t kick_grain = 4096;
+
 /// What is left of a speed (m/s) after `duration` s of dv/dt = -(linear + quadratic v) v: the exact solution
 /// E / (1 + (quadratic / linear) v (1 - E)), E = exp(-linear duration). A negative duration undoes drag, at most to
 /// twice the speed.
@@ -58,16 +61,18 @@ template <class Real>
 void Engine<Real>::attract(double duration) {
     if (state_.laws.fields.empty()) return;
     Bodies<Real>& bodies = state_.bodies;
-    Vec3 impulse;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] == Kind::fixed) continue;
+    std::array<ExactVectorSum, most_parts> impulses{};
+    for_each_in_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t k) {
+        const auto i = static_cast<Index>(k);
+        if (bodies.kind[i] == Kind::fixed) return;
         Vec3 change = attraction(state_, i) * duration;
         if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before + change);
-        impulse += (velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass);
-    }
-    state_.books.outer_impulse.add(impulse);
+        impulses[part].add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass));
+    });
+    for (std::size_t part = 1; part < most_parts; ++part) impulses[0].add(impulses[part]);
+    state_.books.outer_impulse.add(impulses[0].value());
 }
 
 template <class Real>
@@ -75,15 +80,27 @@ void Engine<Real>::drag(double duration) {
     const Drag& law = setting_.options.drag;
     if (law.linear == 0 && law.quadratic == 0) return;
     Bodies<Real>& bodies = state_.bodies;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] == Kind::fixed) continue;
+    struct Loss {
+        ExactVectorSum impulse;
+        ExactSum energy;
+    };
+    std::array<Loss, most_parts> losses{};
+    for_each_in_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t k) {
+        const auto i = static_cast<Index>(k);
+        if (bodies.kind[i] == Kind::fixed) return;
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before * drag_factor(law, length(before), duration));
         const Vec3 after = velocity_of(bodies.motion[i]);
         const auto mass = static_cast<double>(bodies.trait[i].mass);
-        state_.books.outer_impulse.add((after - before) * mass);
-        state_.books.lost_to_drag.add(0.5 * mass * dot(before - after, before + after));
+        losses[part].impulse.add((after - before) * mass);
+        losses[part].energy.add(0.5 * mass * dot(before - after, before + after));
+    });
+    for (std::size_t part = 1; part < most_parts; ++part) {
+        losses[0].impulse.add(losses[part].impulse);
+        losses[0].energy.add(losses[part].energy);
     }
+    state_.books.outer_impulse.add(losses[0].impulse.value());
+    state_.books.lost_to_drag.add(losses[0].energy.value());
 }
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 1;
+constexpr std::uint32_t snapshot_version = 2;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -113,7 +113,12 @@ void transfer(Archive& archive, Flight& flight) {
 
 template <class Archive, class Real>
 void transfer(Archive& archive, Trait<Real>& trait) {
-    archive(trait.mass, trait.restitution, trait.friction, trait.material, trait.slot, trait.flight);
+    archive(trait.mass, trait.restitution, trait.friction, trait.material, trait.slot);
+}
+
+template <class Archive>
+void transfer(Archive& archive, RecentFlight& recent) {
+    archive(recent.slot, recent.flight);
 }
 
 template <class Archive>
@@ -123,7 +128,7 @@ void transfer(Archive& archive, Slot& slot) {
 
 template <class Archive>
 void transfer(Archive& archive, Support& support) {
-    archive(support.code, support.normal);
+    archive(support.code, support.normal, support.bend, support.friction);
 }
 
 template <class Archive>
@@ -231,10 +236,9 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 
 template <class Real>
 template <class Archive>
-void Engine<Real>::transfer(Archive& archive) {
-    Bodies<Real>& b = state_.bodies;
-    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, state_.books,
-            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_, steps_since_order_);
+void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
+    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights,
+            state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
 }
 
 template <class Real>
@@ -243,7 +247,14 @@ std::vector<std::byte> Engine<Real>::save() const {
     auto& self = const_cast<Engine&>(*this); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     Writer body;
     body(self.setting_.options, self.world_tag_, self.setting_.first_origin);
-    self.transfer(body);
+    // By ids, so that the bytes do not tell where in memory a body happens to be.
+    Bodies<Real> ordered = state_.bodies;
+    std::vector<Index> order;
+    for (const Slot& slot : ordered.slots) {
+        if (slot.index != no_index) order.push_back(slot.index);
+    }
+    reorder(ordered, order);
+    self.transfer(body, ordered);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
     std::array<char, 8> magic = snapshot_magic;
@@ -259,7 +270,7 @@ std::vector<std::byte> Engine<Real>::save() const {
 template <class Real>
 void Engine<Real>::load(std::span<const std::byte> payload) {
     Reader reader(payload);
-    transfer(reader);
+    transfer(reader, state_.bodies);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
 }
@@ -267,8 +278,9 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
 /// A checksum finds accidents; whoever writes a right one may still have written nonsense.
 template <class Real>
 void Engine<Real>::check_loaded() const {
-    const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && holds_are_sound() &&
-                       attractors_are_sound() && clock_.is_sound() && last_start_ >= 0 && last_step_ >= 0;
+    const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && flights_are_sound() &&
+                       holds_are_sound() && attractors_are_sound() && clock_.is_sound() && last_start_ >= 0 &&
+                       last_step_ >= 0;
     if (!sound) refuse("contradicts itself");
 }
 
@@ -312,11 +324,22 @@ bool Engine<Real>::bodies_are_sound() const {
         check_radius(static_cast<double>(m.radius), i);
         check_fraction(static_cast<double>(trait.restitution), "restitution", i);
         check_not_negative(static_cast<double>(trait.friction), "friction", i);
-        check_finite(trait.flight.last_impact, "flight", i);
         const bool fixed = b.kind[i] == Kind::fixed;
         if (b.kind[i] > Kind::held || !(trait.mass > 0) || std::isinf(trait.mass) != fixed) return false;
         if (fixed && velocity_of(m) != Vec3{}) return false;
         if ((b.kind[i] == Kind::held) != b.holds.contains(trait.slot)) return false;
+    }
+    return true;
+}
+
+template <class Real>
+bool Engine<Real>::flights_are_sound() const {
+    const Bodies<Real>& b = state_.bodies;
+    for (std::size_t k = 0; k < b.recent_flights.size(); ++k) {
+        const auto& [slot, flight] = b.recent_flights[k];
+        check_finite(flight.last_impact, "flight", k);
+        if (slot >= b.slots.size() || b.slots[slot].index == no_index || flight.quick_impacts == 0) return false;
+        if (k > 0 && b.recent_flights[k - 1].slot >= slot) return false;
     }
     return true;
 }
@@ -359,10 +382,11 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
-        const Flight& flight = state_.bodies.trait[i].flight;
-        hasher(flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
+    }
+    for (const auto& [slot, flight] : state_.bodies.recent_flights) {
+        hasher(slot, flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
     }
     return hasher.value();
 }

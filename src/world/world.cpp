@@ -1,6 +1,6 @@
 #include "space/checks.hpp"
+#include "space/floating_point.hpp"
 #include "world/engine.hpp"
-#include "world/floating_point.hpp"
 #include "world/snapshot.hpp"
 
 #include <atomic>
@@ -216,6 +216,14 @@ void World::set_work_cap(std::uint64_t work_cap) {
 
 void World::set_serial_reference(bool serial_reference) {
     impl_->pass([serial_reference](auto& engine) { engine.set_serial_reference(serial_reference); });
+}
+
+void World::set_threads(unsigned threads) {
+    impl_->pass([threads](auto& engine) { engine.set_threads(threads); });
+}
+
+void World::set_executor(std::shared_ptr<Executor> executor) {
+    impl_->pass([&](auto& engine) { engine.set_executor(std::move(executor)); });
 }
 
 void World::set_min_windows(std::uint32_t min_windows) {

@@ -1,0 +1,36 @@
+/// \file
+/// Where the work of a step runs: on carom's own threads, or in the job system of a game.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace carom {
+
+/// Runs the parts of a piece of work. No result depends on how many threads it has, or in which order parts run.
+class Executor {
+public:
+    /// `context` is handed on as it is.
+    using Task = void (*)(void* context, std::size_t part);
+
+    Executor() = default;
+    Executor(const Executor&) = delete;
+    Executor& operator=(const Executor&) = delete;
+    virtual ~Executor() = default;
+
+    /// Threads that may run parts at the same time, the caller's included, >= 1.
+    [[nodiscard]] virtual unsigned threads() const noexcept = 0;
+    /// Calls task(context, part) once for each part in [0, parts), in any order and on any threads, and returns when
+    /// all are done. What a task throws is thrown again here, once the others have ended. The worlds that share an
+    /// executor may be stepped by different threads at the same time only if it allows that; carom's own do.
+    virtual void run(std::size_t parts, Task task, void* context) = 0;
+};
+
+/// Everything in the caller's thread.
+std::shared_ptr<Executor> make_serial_executor();
+/// oneTBB, or plain threads where carom was built without it. `threads` = 0: one for each core.
+std::shared_ptr<Executor> make_default_executor(unsigned threads = 0);
+/// Threads of its own, from the standard library, kept until the executor goes. `threads` = 0: one for each core.
+std::shared_ptr<Executor> make_thread_executor(unsigned threads = 0);
+
+} // namespace carom
