@@ -79,6 +79,9 @@ class Scenes(CliTest):
         # Kicks at the ends of steps: of second order in dt.
         self.assertLess(abs(summary["energy_drift"]), 1e-3)
         self.assertTrue(all(a["lost"] <= b["lost"] for a, b in zip(rows, rows[1:])))
+        picture = ROOT / "docs/images/asteroids.svg"
+        self.assertEqual(self.read("out", "energy.svg"), picture.read_bytes(),
+                         f"{picture} is not what carom draws now: run ./dev run, then copy out/asteroids/energy.svg")
 
     def test_all_are_here(self):
         tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")} - {"all_are_here"}
