@@ -30,8 +30,12 @@ int report(const std::string& message, int exit_code) {
 int report(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const auto commands = app.get_subcommands();
-    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-    return report(fmt::format("{}\ncarom: try 'carom {}--help'", error.what(), command), carom::cli::bad_usage);
+    if (commands.empty()) {
+        return report("a command is required: run, bench, info or diff\ncarom: try 'carom --help'",
+                      carom::cli::bad_usage);
+    }
+    return report(fmt::format("{}\ncarom: try 'carom {} --help'", error.what(), commands.front()->get_name()),
+                  carom::cli::bad_usage);
 }
 
 int run(int argc, char** argv) {

@@ -142,6 +142,11 @@ int run(const RunOptions& options) {
         fmt::print("{}: {:.6g} s simulated{}\n{}  results   {}\n", scene.title, simulation.world().time(),
                    simulation.finished() ? "" : ", not finished", scene::to_text(summary), folder.path().string());
     }
+    if (simulation.capped_steps() > 0) {
+        fmt::print(stderr,
+                   "carom: {} steps ended early at the work cap of {}: the world is at {:.6g} s, {:.6g} s behind\n",
+                   simulation.capped_steps(), scene.options.work_cap, simulation.world().time(), simulation.behind());
+    }
     if (!ending.message.empty()) fmt::print(stderr, "carom: {}\n", ending.message);
     return ending.exit_code;
 }

@@ -86,11 +86,8 @@ void Simulation::resume(const std::filesystem::path& file) {
 void Simulation::advance() {
     const std::uint64_t step = progress_.steps + 1;
     const double length = step < schedule_.steps ? schedule_.dt : schedule_.last;
-    AfterStep record;
-    if (scene_.outputs.record_impacts) {
-        record = [&](const World& world) { scene::append_impacts(progress_.impact_log, step, world.impacts()); };
-    }
-    timed_step(world_, length, totals_, record);
+    timed_step(world_, length, totals_);
+    if (scene_.outputs.record_impacts) scene::append_impacts(progress_.impact_log, step, world_.impacts());
     progress_.steps = step;
     progress_.last_step_short = length < schedule_.dt;
     progress_.contacts = world_.report().held;
@@ -101,6 +98,11 @@ void Simulation::advance() {
     if (interval_ends(step, schedule_.dt, scene_.outputs.timeline_every)) {
         progress_.rows.push_back(scene::timeline_row(world_, step));
     }
+}
+
+double Simulation::behind() const {
+    const double last = progress_.last_step_short ? schedule_.last : schedule_.dt;
+    return static_cast<double>(progress_.steps - 1) * schedule_.dt + last - world_.time();
 }
 
 std::vector<std::byte> Simulation::checkpoint() const { return scene::save_checkpoint(identity_, progress_, world_); }

@@ -53,6 +53,10 @@ public:
     [[nodiscard]] scene::Summary summary(unsigned threads);
     /// Steps that were done before this process went on from a checkpoint.
     [[nodiscard]] std::uint64_t resumed_from() const { return resumed_from_; }
+    /// Steps of this process that ended early at the work cap.
+    [[nodiscard]] std::uint64_t capped_steps() const { return totals_.capped; }
+    /// s by which the world's time is behind that of all steps done.
+    [[nodiscard]] double behind() const;
 
 private:
     void measure_memory_once();

@@ -54,6 +54,11 @@ restitution = 0.5
 """
 
 
+def figure(text):
+    """Prints what was measured; ./dev test shows these lines at its end."""
+    print(f"figure: {text}")
+
+
 class CliTest(unittest.TestCase):
     """A test with an empty folder as its working directory."""
 

@@ -1,4 +1,5 @@
-"""The commands of docs/command_line.md do what it says, and its tables name what there is."""
+"""The commands of README.md and docs/command_line.md do what they say, the scenes of docs/scenes.md run, and the
+tables of the command line name what there is."""
 
 import csv
 import json
@@ -8,15 +9,22 @@ import unittest
 
 from carom_cli import ROOT, CliTest
 
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs/command_line.md").read_text(encoding="utf-8")
+SCENES = (ROOT / "docs/scenes.md").read_text(encoding="utf-8")
 
 
-def commands():
+def blocks(page, language):
+    """The code blocks of a page."""
+    return re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL)
+
+
+def commands(page):
     """The lines of code blocks that begin with `carom`, and the exit codes that stand behind them."""
-    for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL):
+    for block in blocks(page, "sh"):
         for line in block.splitlines():
             if line.startswith("carom "):
-                code = re.search(r"# exit code (\d)", line)
+                code = re.search(r"exit code (\d)", line)
                 yield shlex.split(line.partition("#")[0])[1:], int(code.group(1)) if code else 0
 
 
@@ -29,10 +37,18 @@ def keys_of_table(heading):
 class Documentation(CliTest):
     def test_commands(self):
         (self.folder / "scenes").symlink_to(ROOT / "scenes")
-        shown = list(commands())
-        self.assertGreater(len(shown), 8)
-        for arguments, code in shown:
-            self.carom(*arguments, expect=code)
+        for page, least in ((README, 5), (PAGE, 9)):
+            shown = list(commands(page))
+            self.assertGreaterEqual(len(shown), least)
+            for arguments, code in shown:
+                self.carom(*arguments, expect=code)
+
+    def test_scenes(self):
+        scene, faces = blocks(SCENES, "toml")
+        self.write("ball.toml", scene)
+        self.assertEqual(self.json("run", "ball.toml", "--time", 1)["face_impacts"], 0)
+        self.write("faces.toml", scene.replace("max = [10, 10, 10]\n", "max = [10, 10, 10]\n" + faces))
+        self.assertEqual(self.json("run", "faces.toml")["contacts"], 1)
 
     def test_every_option_is_described(self):
         for command in ("run", "bench", "info", "diff"):

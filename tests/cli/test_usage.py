@@ -28,6 +28,8 @@ class Usage(CliTest):
     def test_commands(self):
         for arguments in ([], ["fly"], ["run"], ["bench"], ["bench", "gas"], ["diff", "a"], ["info", "x"]):
             self.assertIn("--help", self.refused(*arguments), arguments)
+        for arguments in ([], ["fly"]):
+            self.assertIn("a command is required: run, bench, info or diff", self.refused(*arguments))
 
     def test_unknown_options(self):
         self.assertIn("--bodies", self.refused_run("--bodies", 3))

@@ -58,7 +58,9 @@ double largest_error(Draw draw, Function f, Exact exact) {
     return worst;
 }
 
-void report(const char* what, double error) { std::cout << "largest error of " << what << ": " << error << " ulp\n"; }
+void report(const char* what, double error) {
+    std::cout << "figure: largest error of " << what << ": " << error << " ulp\n";
+}
 
 TEST(PortableMath, ExpIsRightToOneUlp) {
     Numbers numbers;

@@ -65,7 +65,8 @@ void measure(const std::string& what, Property property) {
         largest = std::max(largest, error);
     });
     EXPECT_TRUE(holds);
-    std::cout << what << ": " << largest << " at most\n";
+    std::cout << "figure: " << ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() << ": "
+              << what << ": " << largest << " at most\n";
 }
 
 /// A mirror: each component flips its sign or keeps it.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -34,6 +35,7 @@ double zeno_time(double height, double e) { return std::sqrt(2 * height / gravit
 
 TEST(Bouncing, ComesToRestAtTheZenoTimeWhateverTheStep) {
     for (const double e : {0.5, 0.7, 0.8, 0.9, 0.95}) {
+        double earliest = 0;
         for (const double dt : {1.0 / 1000, 1.0 / 240, 1.0 / 60, 1.0 / 10}) {
             World world(floor_under_gravity());
             const carom::BodyId ball = world.add(ball_at(1, e));
@@ -48,12 +50,18 @@ TEST(Bouncing, ComesToRestAtTheZenoTimeWhateverTheStep) {
             EXPECT_GE(last_impact, zeno_time(1, e) - world.options().rest_time) << "e " << e << " dt " << dt;
             EXPECT_NEAR(world.get(ball).position.z, radius, 2 * world.resolution());
             EXPECT_EQ(world.get(ball).velocity, Vec3{});
+            earliest = std::max(earliest, zeno_time(1, e) - last_impact);
         }
+        std::printf("figure: ball with e = %g rests %.2g s before its Zeno time %.9f s (at most 1/120 s)\n", e,
+                    earliest, zeno_time(1, e));
     }
 }
 
 TEST(Bouncing, ZenoTimesOfTheLiterature) {
     EXPECT_NEAR(zeno_time(1, 0.5), 1.354570923, 1e-9);
+    EXPECT_NEAR(zeno_time(1, 0.7), 2.558633966, 1e-9);
+    EXPECT_NEAR(zeno_time(1, 0.8), 4.063712769, 1e-9);
+    EXPECT_NEAR(zeno_time(1, 0.9), 8.578949179, 1e-9);
     EXPECT_NEAR(zeno_time(1, 0.95), 17.609421998, 1e-9);
 }
 
@@ -111,7 +119,7 @@ TEST(Bouncing, ElasticApexStaysOverAThousandBounces) {
             largest = std::max(largest, std::abs(impact.approach_speed * impact.approach_speed / (2 * gravity) - 1));
         }
     }
-    std::printf("largest deviation of the apex over 1000 bounces: %.3g m\n", largest);
+    std::printf("figure: apex at e = 1 over 1000 bounces: %.3g m off (at most 1e-9)\n", largest);
     EXPECT_LE(largest, 1e-9);
 }
 
@@ -133,7 +141,7 @@ TEST(Bouncing, SimBenchmarkEnergyError) {
             const double error = world.energy().total() - reference;
             sum += error * error;
         }
-        std::printf("SimBenchmark bouncing, dt %g: %.3g J^2\n", dt, sum / steps);
+        std::printf("figure: SimBenchmark bouncing, dt %g s: %.3g J^2 (at most 1e-12)\n", dt, sum / steps);
         EXPECT_LT(sum / steps, 1e-12) << "dt " << dt;
     }
 }

@@ -93,7 +93,7 @@ TEST(Symmetry, AnElasticGasRunsBackward) {
         largest = std::max(largest, length(world.get(ids[i]).position - scene.bodies.position[i]));
     }
     const double impacts = 2.0 * static_cast<double>(world.ledger().impacts) / static_cast<double>(ids.size());
-    std::printf("gas of 1 000 forward and back, %.2f impacts a body: back to %.3g m\n", impacts, largest);
+    std::printf("figure: gas of 1 000 forward and back, %.2f impacts a body: back to %.3g m\n", impacts, largest);
     EXPECT_GT(impacts, 2);
     EXPECT_LE(largest, 1e-7);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <random>
 
@@ -222,6 +223,8 @@ TEST_P(Snapshots, EveryTruncationIsRefused) {
     Bytes more = whole;
     more.push_back(std::byte{0});
     expect_bad(more, "has bytes after its end", "one byte more");
+    std::printf("figure: snapshot in %s: refused at all %zu shorter lengths\n", test::name_of(GetParam()),
+                whole.size());
 }
 
 TEST_P(Snapshots, EveryFlippedBitIsRefused) {
@@ -234,6 +237,8 @@ TEST_P(Snapshots, EveryFlippedBitIsRefused) {
         }
     }
     EXPECT_NO_THROW(World::load(bytes));
+    std::printf("figure: snapshot in %s: refused with any of its %zu bits flipped\n", test::name_of(GetParam()),
+                8 * bytes.size());
 }
 
 TEST_P(Snapshots, ForeignFilesAreRefused) {

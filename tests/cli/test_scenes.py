@@ -1,0 +1,92 @@
+"""Every scene of the repository runs to its end, and what its first lines tell the reader to watch is there to see."""
+
+import csv
+import math
+import time
+import unittest
+
+from carom_cli import ROOT, CliTest, figure
+
+
+class Scenes(CliTest):
+    def whole(self, name):
+        """Runs a scene as it is. Returns its figures and the rows of its timeline."""
+        began = time.monotonic()
+        summary = self.json("run", ROOT / f"scenes/{name}.toml", "--out", "out")
+        figure(f"scenes/{name}.toml: {summary['impacts']} impacts, energy drift {summary['energy_drift']:.2g}, "
+               f"largest overlap {summary['max_overlap']:.2g}, {time.monotonic() - began:.1f} s")
+        self.assertTrue(summary["complete"])
+        self.assertEqual(summary["bodies_outside"], 0)
+        self.assertLessEqual(summary["max_overlap"], 1e-9)
+        self.assertLess(summary["momentum_drift"], 1e-10)
+        with open(self.folder / "out/timeline.csv", newline="", encoding="ascii") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return summary, rows
+
+    def row_at(self, rows, moment):
+        return min(rows, key=lambda row: abs(row["time"] - moment))
+
+    def test_two_bodies(self):
+        summary, _ = self.whole("two_bodies")
+        self.assertEqual(summary["impacts"], 1)
+        self.assertLess(abs(summary["energy_drift"]), 1e-15)
+
+    def test_newtons_cradle(self):
+        summary, rows = self.whole("newtons_cradle")
+        self.assertEqual(summary["pair_impacts"], 4 * (summary["face_impacts"] + 1))
+        for row in rows:
+            self.assertAlmostEqual(row["kinetic"], 0.5, delta=1e-14)
+
+    def test_bouncing_balls(self):
+        summary, rows = self.whole("bouncing_balls")
+        self.assertEqual(summary["contacts"], 10)
+        self.assertLess(abs(summary["energy_drift"]), 1e-9)
+        # The balls with e <= 0.5 rest at 1.35 s, the one with 0.9 at 8.58 s, the one with 1 never.
+        for moment, resting in ((1.34, 5), (1.36, 6), (8.55, 9), (8.6, 10)):
+            self.assertEqual(self.row_at(rows, moment)["contacts"], resting, f"at {moment} s")
+
+    def test_pi(self):
+        summary, _ = self.whole("pi")
+        self.assertEqual(summary["impacts"], 3141592)
+        self.assertLess(abs(summary["energy_drift"]), 1e-9)
+
+    def test_gas(self):
+        summary, _ = self.whole("gas")
+        self.assertGreater(summary["impacts"], 200000)
+        self.assertLess(abs(summary["energy_drift"]), 1e-12)
+
+    def test_cooling(self):
+        summary, rows = self.whole("cooling")
+        self.assertLess(abs(summary["energy_drift"]), 1e-12)
+        # Haff's law T0 / (1 + t / tau)^2: collisions per body until tau are 31.6654 at e = 0.9, and their rate at the
+        # start is 4 sqrt(pi) n chi sqrt(kT / m) sigma^2, with chi = 0.227485 / (4 * 0.05) at this packing of 0.05.
+        rate = 4 * math.sqrt(math.pi) * 10000 / 47.14**3 * 0.227485 / 0.2 * math.sqrt(4)
+        row = self.row_at(rows, 6)
+        tau = row["time"] / (math.sqrt(rows[0]["kinetic"] / row["kinetic"]) - 1)
+        figure(f"cooling: tau {tau:.2f} s, by Haff's law {31.6654 / rate:.2f} s")
+        self.assertAlmostEqual(tau * rate / 31.6654, 1, delta=0.03)
+
+    def test_rain(self):
+        summary, _ = self.whole("rain")
+        self.assertEqual((summary["contacts"], summary["kinetic_final"]), (400, 0))
+        self.assertLess(abs(summary["energy_drift"]), 1e-8)
+
+    def test_asteroids(self):
+        summary, rows = self.whole("asteroids")
+        self.assertEqual(summary["bodies"], 20301)
+        self.assertGreater(summary["impacts"], 10000)
+        self.assertGreater(summary["contacts"], 0)
+        # Kicks at the ends of steps: of second order in dt.
+        self.assertLess(abs(summary["energy_drift"]), 1e-3)
+        self.assertTrue(all(a["lost"] <= b["lost"] for a, b in zip(rows, rows[1:])))
+        picture = ROOT / "docs/images/asteroids.svg"
+        self.assertEqual(self.read("out", "energy.svg"), picture.read_bytes(),
+                         f"{picture} is not what carom draws now: run ./dev run, then copy out/asteroids/energy.svg")
+
+    def test_all_are_here(self):
+        tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")} - {"all_are_here"}
+        self.assertEqual(tested, {path.stem for path in (ROOT / "scenes").glob("*.toml")})
+
+
+if __name__ == "__main__":
+    unittest.main()
