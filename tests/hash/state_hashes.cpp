@@ -1,5 +1,5 @@
-// Prints, for each workload and some scenes, a hash of the state after some steps and one of the impacts on the way:
-// builds of every preset have to print the same. Small enough for an emulated processor to be through in seconds.
+// Prints, for each workload and some scenes, hashes of the state after some steps, of the impacts on the way, and of
+// sums: builds of every preset have to print the same. Small enough for an emulated processor to be through in seconds.
 
 #include "scene/scene.hpp"
 #include "scene/workloads.hpp"
@@ -39,7 +39,15 @@ public:
         add(impact.approach_speed);
         add(impact.energy_lost);
     }
-    [[nodiscard]] std::uint64_t value() const { return value_; }
+    void add(const carom::Ledger& ledger) {
+        add(ledger.impacts);
+        add(ledger.face_impacts);
+        add(ledger.lost_to_restitution);
+        add(ledger.lost_to_friction);
+        add(ledger.lost_to_drag);
+        add(ledger.outer_impulse);
+    }
+    [[nodiscard]] unsigned long long value() const { return value_; }
 
 private:
     std::uint64_t value_ = 0xcbf29ce484222325U;
@@ -52,9 +60,15 @@ void run(const std::string& name, const carom::scene::Scene& scene, int steps) {
         world.step(scene.run.dt);
         for (const carom::Impact& impact : world.impacts()) impacts.add(impact);
     }
+    Hash sums;
+    sums.add(world.energy().total());
+    sums.add(world.momentum());
+    sums.add(world.angular_momentum());
+    sums.add(world.ledger());
     const bool is_single = scene.options.precision == carom::Precision::single_precision;
-    std::printf("%-26s %-6s  state %016llx  impacts %016llx\n", name.c_str(), is_single ? "single" : "double",
-                static_cast<unsigned long long>(world.hash()), static_cast<unsigned long long>(impacts.value()));
+    std::printf("%-26s %-6s  state %016llx  impacts %016llx  sums %016llx\n", name.c_str(),
+                is_single ? "single" : "double", static_cast<unsigned long long>(world.hash()), impacts.value(),
+                sums.value());
 }
 
 struct File {
