@@ -296,7 +296,9 @@ std::vector<Vec3> radial_velocities(std::span<const Vec3> positions, const Vec3&
         const double distance = length(offset);
         const Vec3 away = distance > 0 ? offset / distance : Vec3{1, 0, 0};
         // Of all points of a ball of radius `spread` about the tip of a unit vector none is more than that off it.
-        const Vec3 turned = away + (spread * random.unit()) * random.on_sphere();
+        // Drawn one after the other: compilers differ in which operand of a product they evaluate first.
+        const Vec3 direction = random.on_sphere();
+        const Vec3 turned = away + (spread * random.unit()) * direction;
         const double size = length(turned);
         velocities.push_back(speed * (size > 0 ? turned / size : away));
     }
