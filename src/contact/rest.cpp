@@ -142,11 +142,18 @@ void settle_holds(State<Real>& state) {
             if (s.is_wall() && state.bounds.walls()[s.wall()].axis >= 0) continue;
             s.normal = normal_of(state, body, s);
             const double gap = gap_to(state, body, s);
-            motion.x = motion.x + round_to_units(s.normal * gap, state.resolution);
+            // Less than the resolution waits for more to come: rounded away each time, it would be energy gone astray.
+            const Int3 shift =
+                std::abs(gap) > state.resolution.metres ? round_to_units(s.normal * gap, state.resolution) : Int3{};
+            motion.x = motion.x + shift;
+            // A support does no work: the body gets the speed that gravity gives it on the whole way. Attractors' kicks
+            // before and after the way keep their own balance.
             const Vec3 v = velocity_of(motion);
+            const double gain = 2 * dot(state.laws.gravity, to_metres(shift, state.resolution));
             const Vec3 along = v - s.normal * dot(v, s.normal);
             const double speed = length(along);
-            if (speed > 0) set_and_book(state, body, along * (length(v) / speed), entry);
+            const double settled = std::sqrt(std::max(0.0, length_squared(v) + gain));
+            if (speed > 0) set_and_book(state, body, along * (settled / speed), entry);
         }
         state.books.add(entry);
     }

@@ -178,6 +178,70 @@ TEST(Rest, InsideAShell) {
     EXPECT_LE(std::abs(world.get(ball).position.x), 4.5 * std::sin(std::atan(0.3)) + 0.01);
 }
 
+/// The largest error of the energy of a smooth body that slides inside a shell or off a static sphere for two seconds.
+double energy_error(carom::Precision precision, bool shell, double dt, double* resolution) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.precision = precision;
+    if (shell) options.region = carom::Shell{.radius = 5};
+    World world(options);
+    *resolution = world.resolution();
+    if (!shell) world.add({.mass = carom::infinite_mass, .radius = 9.5, .restitution = 0});
+    const Vec3 place = shell ? Vec3{4.5 * std::sin(1.0), 0, -4.5 * std::cos(1.0)} : Vec3{0, 0, 10};
+    const BodyId ball = world.add({.position = place, .velocity = {0, shell ? 0 : 1.0, 0}, .restitution = 0});
+    const double start = world.energy().total();
+    double error = 0;
+    while (world.time() < 2) {
+        world.step(dt);
+        EXPECT_TRUE(world.held(ball));
+        const double booked = world.ledger().lost_to_restitution + world.ledger().lost_to_friction;
+        error = std::max(error, std::abs(world.energy().total() + booked - start));
+    }
+    return error;
+}
+
+TEST(Rest, SlidingOnACurvedSupportKeepsEnergy) {
+    for (const bool single : {false, true}) {
+        const auto precision = single ? carom::Precision::single_precision : carom::Precision::double_precision;
+        const double eps = single ? 0x1p-23 : 0x1p-52;
+        for (const bool shell : {true, false}) {
+            for (const double dt : {1.0 / 60, 1.0 / 240}) {
+                double resolution = 0;
+                const double error = energy_error(precision, shell, dt, &resolution);
+                // Each step rounds the place twice, along gravity, and a speed of 7 m/s at most three times.
+                EXPECT_LE(error, 2 / dt * (2 * g * resolution + 3 * 49 * eps)) << single << shell << dt;
+            }
+        }
+    }
+}
+
+TEST(Rest, AShellIsAPendulum) {
+    // From rest at an angle of 1 the way to the bottom takes pi / 2 sqrt(r / g) / agm(1, cos(1/2)).
+    double a = 1;
+    double b = std::cos(0.5);
+    for (int i = 0; i < 6; ++i) {
+        const double mean = (a + b) / 2;
+        b = std::sqrt(a * b);
+        a = mean;
+    }
+    constexpr double r = 4.5;
+    const double quarter = std::acos(-1.0) / 2 * std::sqrt(r / g) / a;
+    std::vector<double> errors;
+    for (const int steps : {50, 100, 200}) {
+        WorldOptions options;
+        options.gravity = {0, 0, -g};
+        options.region = carom::Shell{.radius = 5};
+        World world(options);
+        const BodyId ball = world.add({.position = {r * std::sin(1.0), 0, -r * std::cos(1.0)}, .restitution = 0});
+        for (int i = 0; i < steps; ++i) world.step(quarter / steps);
+        EXPECT_NEAR(length(world.get(ball).velocity), std::sqrt(2 * g * r * (1 - std::cos(1.0))), 0.01);
+        errors.push_back(std::abs(world.get(ball).position.x));
+    }
+    EXPECT_LT(errors[0], 0.02);
+    EXPECT_LT(errors[1], 0.6 * errors[0]);
+    EXPECT_LT(errors[2], 0.6 * errors[1]);
+}
+
 TEST(Rest, OnAPlanetThatAttracts) {
     for (const double dt : {1.0 / 240, 1.0 / 60, 1.0 / 20}) {
         World world;
