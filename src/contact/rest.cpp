@@ -16,6 +16,9 @@ Vec3 along_supports(Vec3 vector, const std::vector<Support>& supports) {
     return vector;
 }
 
+/// What rounding makes of a direction along a support: a blow in it does not lift a body.
+constexpr double along_rounding = 1e-8;
+
 template <class Real>
 Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
     const Int3& x = state.bodies.motion[body].x;
@@ -109,6 +112,39 @@ void hold_against(State<Real>& state, Index body, const Support& support, double
 }
 
 template <class Real>
+Yielding yield_to(const State<Real>& state, Index body, const Vec3& velocity, const Vec3& blow) {
+    if (state.bodies.kind[body] != Kind::held) return {.change = blow};
+    const Hold& hold = hold_of(state.bodies, body);
+    const Vec3 free = along_supports(blow, hold.supports);
+    if (dot(velocity, free) < 0) return {.change = free};
+    double mu = 0;
+    for (const Support& s : hold.supports) mu = std::max(mu, friction_of(state, body, s));
+    const double grip = mu * length(blow - free);
+    const double push = length(free);
+    const Vec3 friction = grip < push ? free * (-grip / push) : -free;
+    return {.change = free + friction, .friction = friction};
+}
+
+template <class Real>
+bool stays_on_supports(const State<Real>& state, Index body, const Vec3& direction) {
+    if (state.bodies.kind[body] != Kind::held) return true;
+    const auto& supports = hold_of(state.bodies, body).supports;
+    return std::all_of(supports.begin(), supports.end(),
+                       [&](const Support& s) { return dot(direction, s.normal) >= -along_rounding; });
+}
+
+template <class Real>
+bool moves_along_supports(const State<Real>& state, Index body, const Vec3& direction) {
+    return state.bodies.kind[body] == Kind::held && stays_on_supports(state, body, direction) &&
+           stays_on_supports(state, body, -direction);
+}
+
+template <class Real>
+void refresh_hold(State<Real>& state, Index body, double remaining, Entry& entry) {
+    derive_motion(state, body, state.bodies.holds[state.bodies.trait[body].slot], remaining, entry);
+}
+
+template <class Real>
 void refresh_holds(State<Real>& state, double duration) {
     Bodies<Real>& bodies = state.bodies;
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
@@ -182,6 +218,10 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template Pressure pressure_on(const State<Real>&, Index, const Support&, const Vec3&);                             \
     template void hold_against(State<Real>&, Index, const Support&, double, Entry&);                                   \
+    template Yielding yield_to(const State<Real>&, Index, const Vec3&, const Vec3&);                                   \
+    template bool stays_on_supports(const State<Real>&, Index, const Vec3&);                                           \
+    template bool moves_along_supports(const State<Real>&, Index, const Vec3&);                                        \
+    template void refresh_hold(State<Real>&, Index, double, Entry&);                                                   \
     template void refresh_holds(State<Real>&, double);                                                                 \
     template void settle_holds(State<Real>&);                                                                          \
     template Vec3 kick_along_supports(const State<Real>&, Index, Vec3);                                                \
