@@ -16,6 +16,9 @@ Vec3 along_supports(Vec3 vector, const std::vector<Support>& supports) {
     return vector;
 }
 
+/// What rounding makes of a direction along a support: a blow in it does not lift a body.
+constexpr double along_rounding = 1e-8;
+
 template <class Real>
 Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
     const Int3& x = state.bodies.motion[body].x;
@@ -125,6 +128,39 @@ void hold_against(State<Real>& state, Index body, const Support& support, double
 }
 
 template <class Real>
+Yielding yield_to(const State<Real>& state, Index body, const Vec3& velocity, const Vec3& blow) {
+    if (state.bodies.kind[body] != Kind::held) return {.change = blow};
+    const Hold& hold = hold_of(state.bodies, body);
+    const Vec3 free = along_supports(blow, hold.supports);
+    if (dot(velocity, free) < 0) return {.change = free};
+    double mu = 0;
+    for (const Support& s : hold.supports) mu = std::max(mu, s.friction);
+    const double grip = mu * length(blow - free);
+    const double push = length(free);
+    const Vec3 friction = grip < push ? free * (-grip / push) : -free;
+    return {.change = free + friction, .friction = friction};
+}
+
+template <class Real>
+bool stays_on_supports(const State<Real>& state, Index body, const Vec3& direction) {
+    if (state.bodies.kind[body] != Kind::held) return true;
+    const auto& supports = hold_of(state.bodies, body).supports;
+    return std::all_of(supports.begin(), supports.end(),
+                       [&](const Support& s) { return dot(direction, s.normal) >= -along_rounding; });
+}
+
+template <class Real>
+bool moves_along_supports(const State<Real>& state, Index body, const Vec3& direction) {
+    return state.bodies.kind[body] == Kind::held && stays_on_supports(state, body, direction) &&
+           stays_on_supports(state, body, -direction);
+}
+
+template <class Real>
+void refresh_hold(State<Real>& state, Index body, double remaining, Entry& entry) {
+    derive_motion(state, body, state.bodies.holds[state.bodies.trait[body].slot], remaining, entry);
+}
+
+template <class Real>
 void refresh_holds(State<Real>& state, double duration, std::vector<Index>& released) {
     Bodies<Real>& bodies = state.bodies;
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
@@ -159,11 +195,18 @@ void settle_holds(State<Real>& state) {
             if (s.is_wall() && state.bounds.walls()[s.wall()].axis >= 0) continue;
             s.normal = normal_of(state, body, s);
             const double gap = gap_to(state, body, s);
-            motion.x = motion.x + round_to_units(s.normal * gap, state.resolution);
+            // Less than the resolution waits for more to come: rounded away each time, it would be energy gone astray.
+            const Int3 shift =
+                std::abs(gap) > state.resolution.metres ? round_to_units(s.normal * gap, state.resolution) : Int3{};
+            motion.x = motion.x + shift;
+            // A support does no work: the body gets the speed that gravity gives it on the whole way. Attractors' kicks
+            // before and after the way keep their own balance.
             const Vec3 v = velocity_of(motion);
+            const double gain = 2 * dot(state.laws.gravity, to_metres(shift, state.resolution));
             const Vec3 along = v - s.normal * dot(v, s.normal);
             const double speed = length(along);
-            if (speed > 0) set_and_book(state, body, along * (length(v) / speed), entry);
+            const double settled = std::sqrt(std::max(0.0, length_squared(v) + gain));
+            if (speed > 0) set_and_book(state, body, along * (settled / speed), entry);
         }
         state.books.add(entry);
     }
@@ -195,6 +238,10 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
     template Pressure pressure_on(const State<Real>&, const Motion<Real>&, std::uint32_t, const Support&,              \
                                   const Vec3&);                                                                        \
     template void hold_against(State<Real>&, Index, const Support&, double, Entry&);                                   \
+    template Yielding yield_to(const State<Real>&, Index, const Vec3&, const Vec3&);                                   \
+    template bool stays_on_supports(const State<Real>&, Index, const Vec3&);                                           \
+    template bool moves_along_supports(const State<Real>&, Index, const Vec3&);                                        \
+    template void refresh_hold(State<Real>&, Index, double, Entry&);                                                   \
     template void refresh_holds(State<Real>&, double, std::vector<Index>&);                                            \
     template void settle_holds(State<Real>&);                                                                          \
     template Vec3 kick_along_supports(const State<Real>&, Index, Vec3);                                                \

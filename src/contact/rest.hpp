@@ -46,6 +46,29 @@ Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Rea
 template <class Real>
 void hold_against(State<Real>& state, Index body, const Support& support, double remaining, Entry& entry);
 
+/// What a blow does to a body that stays on its supports.
+struct Yielding {
+    Vec3 change{};   ///< m/s, of its velocity, friction included
+    Vec3 friction{}; ///< m/s, the part of it that is friction at the supports
+};
+
+/// How a body that moves with `velocity` yields to a blow (m/s, impulse / mass): a held one only along its supports,
+/// and where it does not move against the blow, only as far as friction lets it. Linear in the size of the blow.
+template <class Real>
+Yielding yield_to(const State<Real>& state, Index body, const Vec3& velocity, const Vec3& blow);
+
+/// Whether a blow along a direction leaves a held body on its supports.
+template <class Real>
+bool stays_on_supports(const State<Real>& state, Index body, const Vec3& direction);
+
+/// Whether a held body moves along all its supports when it moves along a direction.
+template <class Real>
+bool moves_along_supports(const State<Real>& state, Index body, const Vec3& direction);
+
+/// Derives anew how a held body moves after its velocity has changed. `remaining`: s to the end of the step.
+template <class Real>
+void refresh_hold(State<Real>& state, Index body, double remaining, Entry& entry);
+
 /// Start of a step: drops supports that no longer press and derives how the held bodies move in the next `duration`.
 /// Appends the bodies that are let go to `released`.
 template <class Real>

@@ -46,6 +46,14 @@ Meeting meeting_at(const State<Real>& state, const Path<Real>& a, const Path<Rea
     return m;
 }
 
+/// m/s^2 with which two bodies that touch are pressed together along n, from a to b: what accelerates them, less what
+/// their sliding round each other takes. `velocity` and `pull` are of b relative to a.
+inline double pressing_along(const Vec3& n, double distance, const Vec3& velocity, const Vec3& pull) {
+    const double across = dot(velocity, n);
+    const double sliding_squared = std::max(0.0, length_squared(velocity) - across * across);
+    return -dot(pull, n) - (distance > 0 ? sliding_squared / distance : 0);
+}
+
 /// When two bodies meet next, s since the start of the step, or no_impact if not before `until`. `now`: what has
 /// happened before does not count; only used to tell periodic images apart.
 template <class Real>

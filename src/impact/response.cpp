@@ -19,6 +19,7 @@ constexpr std::uint16_t still_impacts_allowed = 10000;
 /// What a body's impacts in quick succession come to.
 struct Haste {
     bool collapses = false; ///< too many: the TC rule makes further ones elastic
+    bool stands = false;    ///< too many, and no further on the way than a contact of finite duration gives way
     bool jams = false;      ///< too many at one place: the jam rule makes further ones inelastic
 };
 
@@ -29,6 +30,9 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
     const double duration = time - flight.last_impact;
     if (duration > state.laws.collapse_time) flight.quick_impacts = 0;
     const bool still = flight.quick_impacts > 0 && approach * duration <= 2 * state.resolution.metres;
+    const double collapse_time = state.laws.collapse_time;
+    const double give =
+        std::max(2 * state.resolution.metres, length(state.laws.gravity) * collapse_time * collapse_time / 8);
     const auto counted = [](bool goes_on, std::uint32_t count, std::uint32_t allowed) {
         return goes_on ? std::min(count + 1, allowed + 1) : 0;
     };
@@ -38,6 +42,7 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
         static_cast<std::uint16_t>(counted(still && at_support, flight.still_bounces, still_bounces_allowed));
     flight.last_impact = time;
     return {.collapses = flight.quick_impacts > quick_impacts_allowed,
+            .stands = flight.quick_impacts > quick_impacts_allowed && approach * duration <= give,
             .jams = flight.still_impacts > still_impacts_allowed || flight.still_bounces > still_bounces_allowed};
 }
 
@@ -77,10 +82,15 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
     occurrence.impact.energy_lost = response.energy_lost();
 }
 
+template <class Real>
+Pressure pressure_here(const State<Real>& state, Index body, const Support& support, const Vec3& v) {
+    return pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
+}
+
 /// A support that a body touches at `time`: whether the body comes to rest there.
 template <class Real>
 bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
-    const Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
+    const Pressure pressure = pressure_here(state, body, support, v);
     if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
     return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
 }
@@ -92,10 +102,16 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     const double time = occurrence.impact.offset;
     Vec3 v = velocity_of(state.bodies.motion[body]);
     const double approach = dot(v, support.normal);
-    const bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
+    bool stays = false;
+    bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
-        release(state.bodies, body);
         const Haste haste = count_impact(state, body, time, approach, true);
+        stays = haste.collapses && moves_along_supports(state, body, support.normal);
+        if (!stays) release(state.bodies, body);
+        // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
+        // would wear down in ever more impacts of a light body in between.
+        const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
+        come_to_rest = come_to_rest || (squeezed && pressure_here(state, body, support, v).acceleration >= 0);
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
@@ -108,7 +124,12 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         occurrence.entry.outer_impulse += -(support.normal * response.impulse) - response.friction_impulse;
         write_down(response, occurrence);
     }
-    if (come_to_rest) hold_against(state, body, support, state.laws.kick_interval - time, occurrence.entry);
+    const double remaining = state.laws.kick_interval - time;
+    if (come_to_rest) {
+        hold_against(state, body, support, remaining, occurrence.entry);
+    } else if (stays) {
+        refresh_hold(state, body, remaining, occurrence.entry);
+    }
 }
 
 template <class Real>
@@ -129,19 +150,156 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     meet_support(state, event.a, support, encounter, occurrence);
 }
 
+/// A blow on two bodies of which one lies at least, and how they yield to it.
+template <class Real>
+class Blow {
+public:
+    /// A unit impulse (N s) on b, and its reaction on a.
+    Blow(const State<Real>& state, Index a, Index b, const Vec3& v_a, const Vec3& v_b, const Vec3& direction)
+        : direction_(direction), mass_a_(mass_of(state, a)), mass_b_(mass_of(state, b)),
+          a_(yield_to(state, a, v_a, direction / -mass_a_)), b_(yield_to(state, b, v_b, direction / mass_b_)) {}
+
+    /// 1/kg, by how much a unit impulse changes the relative velocity along a direction.
+    [[nodiscard]] double softness(const Vec3& along) const { return dot(b_.change - a_.change, along); }
+
+    void strike(double impulse, Vec3& v_a, Vec3& v_b, Entry& entry) const {
+        strike_one(impulse, a_, -direction_, mass_a_, v_a, entry);
+        strike_one(impulse, b_, direction_, mass_b_, v_b, entry);
+    }
+
+private:
+    static void strike_one(double impulse, const Yielding& yielding, const Vec3& direction, double mass, Vec3& v,
+                           Entry& entry) {
+        const Vec3 change = yielding.change * impulse;
+        entry.outer_impulse += change * mass - direction * impulse;
+        entry.lost_to_friction -= 0.5 * mass * impulse * dot(yielding.friction, v + v + change);
+        v += change;
+    }
+
+    Vec3 direction_;
+    double mass_a_;
+    double mass_b_;
+    Yielding a_;
+    Yielding b_;
+};
+
+/// Impulses along the normal and across it, N s.
+struct Impulses {
+    double normal = 0;
+    double across = 0;
+};
+
+/// What turns an approach into e times that and stops the sliding (m/s) across it, within Coulomb's limit. Each blow
+/// also changes the other's velocity: a body that lies does not yield straight. Friction that would speed sliding up
+/// does not act.
+template <class Real>
+Impulses impulses_of(const Blow<Real>& blow, const Vec3& n, const Blow<Real>& rub, const Vec3& t, double approach,
+                     double sliding, const Encounter& encounter) {
+    const double turn = (1 + encounter.restitution) * approach;
+    const double softness = blow.softness(n);
+    const Impulses smooth{turn / softness, 0};
+    if (!(encounter.friction > 0 && sliding > 0)) return smooth;
+    const double determinant = softness * rub.softness(t) - blow.softness(t) * rub.softness(n);
+    Impulses both;
+    both.across = (sliding * softness - turn * blow.softness(t)) / determinant;
+    both.normal = (turn - both.across * rub.softness(n)) / softness;
+    if (!(determinant > 0 && both.across <= encounter.friction * both.normal)) {
+        both.normal = turn / (softness + encounter.friction * rub.softness(n));
+        both.across = encounter.friction * both.normal;
+    }
+    const double left = sliding - both.normal * blow.softness(t) - both.across * rub.softness(t);
+    return both.normal > 0 && both.across > 0 && sliding + left >= 0 ? both : smooth;
+}
+
+/// What a pair of blows makes of two bodies.
+struct Struck {
+    Vec3 v_a{};
+    Vec3 v_b{};
+    Entry entry{};
+    double lost = 0; ///< J, between the two
+};
+
+template <class Real>
+Struck struck(const Impulses& impulses, const Blow<Real>& blow, const Vec3& n, const Blow<Real>& rub, const Vec3& t,
+              const Meeting& meeting) {
+    Struck s{.v_a = meeting.v_a, .v_b = meeting.v_b};
+    const auto strike = [&s](double impulse, const Blow<Real>& by, const Vec3& along) {
+        const double before = dot(s.v_a - s.v_b, along);
+        by.strike(impulse, s.v_a, s.v_b, s.entry);
+        s.lost += impulse * (before - 0.5 * impulse * by.softness(along));
+    };
+    strike(impulses.normal, blow, n);
+    if (impulses.across > 0) strike(impulses.across, rub, t);
+    return s;
+}
+
+/// The collapse of an impact between a lying body and what it lies on: the limit of endlessly many impacts, in which it
+/// passes the blow on to its supports and stays on them. False if the bodies, released, are to collide alone.
+template <class Real>
+bool meet_lying(State<Real>& state, Index a, Index b, const Meeting& meeting, const Encounter& encounter,
+                Occurrence& occurrence) {
+    const Vec3& n = occurrence.impact.normal;
+    const Vec3 relative = meeting.v_a - meeting.v_b;
+    const double approach = dot(relative, n);
+    const Vec3 across = relative - n * approach;
+    const double sliding = length(across);
+    const Vec3 t = sliding > 0 ? across / sliding : Vec3{};
+    const Blow<Real> blow(state, a, b, meeting.v_a, meeting.v_b, n);
+    if (!(approach > 0 && blow.softness(n) > 0)) return false;
+    const Blow<Real> rub(state, a, b, meeting.v_a, meeting.v_b, t);
+    Impulses impulses = impulses_of(blow, n, rub, t, approach, sliding, encounter);
+    Struck s = struck(impulses, blow, n, rub, t, meeting);
+    if (impulses.across > 0 && s.lost + s.entry.lost_to_friction < 0) {
+        // Friction at the supports was taken for a body that moves the other way.
+        impulses = {(1 + encounter.restitution) * approach / blow.softness(n), 0};
+        s = struck(impulses, blow, n, rub, t, meeting);
+    }
+    set_velocity(state, a, s.v_a);
+    set_velocity(state, b, s.v_b);
+    occurrence.entry.outer_impulse += s.entry.outer_impulse;
+    occurrence.entry.lost_to_friction += s.entry.lost_to_friction;
+    const double bounce_loss = 0.5 * (1 - encounter.restitution) * approach * impulses.normal;
+    write_down({.approach_speed = approach,
+                .impulse = impulses.normal,
+                .friction_impulse = t * impulses.across,
+                .restitution_loss = bounce_loss,
+                .friction_loss = impulses.across > 0 ? s.lost - bounce_loss : 0},
+               occurrence);
+    for (const Index body : {a, b}) {
+        if (state.bodies.kind[body] != Kind::held) continue;
+        refresh_hold(state, body, state.laws.kick_interval - occurrence.impact.offset, occurrence.entry);
+    }
+    return true;
+}
+
 /// Two bodies that both move.
 template <class Real>
-void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, Occurrence& occurrence) {
+void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& pull, Occurrence& occurrence) {
     const ImpactRecord& impact = occurrence.impact;
-    release(state.bodies, a);
-    release(state.bodies, b);
     Encounter encounter = encounter_of(state, a, b);
     Vec3 v_a = meeting.v_a;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
     const Haste haste_b = count_impact(state, b, impact.offset, approach, false);
-    apply_haste({haste_a.collapses || haste_b.collapses, haste_a.jams || haste_b.jams}, encounter, occurrence);
+    Haste haste{.collapses = haste_a.collapses || haste_b.collapses, .jams = haste_a.jams || haste_b.jams};
+    const bool one_lies = state.bodies.kind[a] == Kind::held || state.bodies.kind[b] == Kind::held;
+    if (one_lies && haste.collapses && stays_on_supports(state, a, -impact.normal) &&
+        stays_on_supports(state, b, impact.normal)) {
+        // With the blow passed on, it is no collapse if an elastic impact were followed by a long enough flight; and
+        // bodies that are pressed together do not fill the room between faces.
+        const double pressing = pressing_along(impact.normal, length(meeting.delta), v_b - v_a, pull);
+        if (pressing > 0) {
+            haste.jams = false;
+            haste.collapses = 2 * approach < pressing * state.laws.collapse_time;
+        }
+        apply_haste(haste, encounter, occurrence);
+        if (meet_lying(state, a, b, meeting, encounter, occurrence)) return;
+    } else {
+        apply_haste(haste, encounter, occurrence);
+    }
+    release(state.bodies, a);
+    release(state.bodies, b);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
     set_velocity(state, a, v_a);
@@ -165,7 +323,9 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
     const bool in_order = bodies.trait[event.a].slot < bodies.trait[event.b].slot;
     const Index a = in_order ? event.a : event.b;
     const Index b = in_order ? event.b : event.a;
-    const Meeting meeting = meeting_at(state, path_of(state, a), path_of(state, b), event.time);
+    const Path<Real> path_a = path_of(state, a);
+    const Path<Real> path_b = path_of(state, b);
+    const Meeting meeting = meeting_at(state, path_a, path_b, event.time);
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
     take_part(state, a, event.time, occurrence.entry);
     take_part(state, b, event.time, occurrence.entry);
@@ -180,7 +340,7 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
     } else if (bodies.kind[b] == Kind::fixed) {
         meet_static(state, a, b, n, occurrence);
     } else {
-        meet_body(state, a, b, meeting, occurrence);
+        meet_body(state, a, b, meeting, path_b.acceleration - path_a.acceleration, occurrence);
     }
 }
 

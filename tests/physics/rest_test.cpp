@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace {
@@ -178,6 +179,70 @@ TEST(Rest, InsideAShell) {
     EXPECT_LE(std::abs(world.get(ball).position.x), 4.5 * std::sin(std::atan(0.3)) + 0.01);
 }
 
+/// The largest error of the energy of a smooth body that slides inside a shell or off a static sphere for two seconds.
+double energy_error(carom::Precision precision, bool shell, double dt, double* resolution) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.precision = precision;
+    if (shell) options.region = carom::Shell{.radius = 5};
+    World world(options);
+    *resolution = world.resolution();
+    if (!shell) world.add({.mass = carom::infinite_mass, .radius = 9.5, .restitution = 0});
+    const Vec3 place = shell ? Vec3{4.5 * std::sin(1.0), 0, -4.5 * std::cos(1.0)} : Vec3{0, 0, 10};
+    const BodyId ball = world.add({.position = place, .velocity = {0, shell ? 0 : 1.0, 0}, .restitution = 0});
+    const double start = world.energy().total();
+    double error = 0;
+    while (world.time() < 2) {
+        world.step(dt);
+        EXPECT_TRUE(world.held(ball));
+        const double booked = world.ledger().lost_to_restitution + world.ledger().lost_to_friction;
+        error = std::max(error, std::abs(world.energy().total() + booked - start));
+    }
+    return error;
+}
+
+TEST(Rest, SlidingOnACurvedSupportKeepsEnergy) {
+    for (const bool single : {false, true}) {
+        const auto precision = single ? carom::Precision::single_precision : carom::Precision::double_precision;
+        const double eps = single ? 0x1p-23 : 0x1p-52;
+        for (const bool shell : {true, false}) {
+            for (const double dt : {1.0 / 60, 1.0 / 240}) {
+                double resolution = 0;
+                const double error = energy_error(precision, shell, dt, &resolution);
+                // Each step rounds the place twice, along gravity, and a speed of 7 m/s at most three times.
+                EXPECT_LE(error, 2 / dt * (2 * g * resolution + 3 * 49 * eps)) << single << shell << dt;
+            }
+        }
+    }
+}
+
+TEST(Rest, AShellIsAPendulum) {
+    // From rest at an angle of 1 the way to the bottom takes pi / 2 sqrt(r / g) / agm(1, cos(1/2)).
+    double a = 1;
+    double b = std::cos(0.5);
+    for (int i = 0; i < 6; ++i) {
+        const double mean = (a + b) / 2;
+        b = std::sqrt(a * b);
+        a = mean;
+    }
+    constexpr double r = 4.5;
+    const double quarter = std::acos(-1.0) / 2 * std::sqrt(r / g) / a;
+    std::vector<double> errors;
+    for (const int steps : {50, 100, 200}) {
+        WorldOptions options;
+        options.gravity = {0, 0, -g};
+        options.region = carom::Shell{.radius = 5};
+        World world(options);
+        const BodyId ball = world.add({.position = {r * std::sin(1.0), 0, -r * std::cos(1.0)}, .restitution = 0});
+        for (int i = 0; i < steps; ++i) world.step(quarter / steps);
+        EXPECT_NEAR(length(world.get(ball).velocity), std::sqrt(2 * g * r * (1 - std::cos(1.0))), 0.01);
+        errors.push_back(std::abs(world.get(ball).position.x));
+    }
+    EXPECT_LT(errors[0], 0.02);
+    EXPECT_LT(errors[1], 0.6 * errors[0]);
+    EXPECT_LT(errors[2], 0.6 * errors[1]);
+}
+
 TEST(Rest, OnAPlanetThatAttracts) {
     for (const double dt : {1.0 / 240, 1.0 / 60, 1.0 / 20}) {
         World world;
@@ -188,6 +253,110 @@ TEST(Rest, OnAPlanetThatAttracts) {
         EXPECT_TRUE(world.held(ball)) << dt;
         EXPECT_NEAR(length(world.get(ball).position), 100.5, 1e-9) << dt;
         EXPECT_LT(world.ledger().impacts, 200U) << dt;
+    }
+}
+
+/// A ball that comes to lean on others that lie; walls, where there are any, keep these where they are.
+struct Lean {
+    const char* name;
+    carom::Region region;
+    std::vector<Vec3> lying;
+    Vec3 leaning;
+};
+
+std::vector<Lean> leans() {
+    const std::vector<carom::Plane> floor{{}};
+    const std::vector<carom::Plane> floor_and_wall{{}, {.normal = {1, 0, 0}}};
+    return {{"on top", floor, {{0, 0, 0.5}}, {0, 0, 1.6}},
+            {"beside the top", floor, {{0, 0, 0.5}}, {0.1, 0.05, 1.6}},
+            {"against a wall", floor_and_wall, {{1.2, 0, 0.5}}, {0.5, 0, 1.4}},
+            {"squeezed into a box", carom::Box{{0, 0, 0}, {1.8, 1, 10}}, {{1.3, 0.5, 0.5}}, {0.5, 0.5, 1.4}},
+            {"on two", floor, {{-0.5, 0, 0.5}, {0.5, 0, 0.5}}, {0, 0, 1.5}},
+            {"on three", floor, {{0.6, 0, 0.5}, {-0.3, 0.52, 0.5}, {-0.3, -0.52, 0.5}}, {0, 0, 1.5}}};
+}
+
+/// Impacts of one step in which a ball leans on others, and what must hold meanwhile.
+void expect_bounded(const Lean& lean, double e, double mu, double mass) {
+    constexpr double dt = 1.0 / 60;
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    options.region = lean.region;
+    // An impact per quarter of the collapse time and body: a contact alone makes one per half of it.
+    const double most = 4 * dt / options.collapse_time * static_cast<double>(lean.lying.size() + 1);
+    options.work_cap = static_cast<std::uint64_t>(2 * most);
+    World world(options);
+    for (const Vec3& x : lean.lying) world.add({.position = x, .restitution = e, .friction = mu});
+    world.add({.position = lean.leaning, .mass = mass, .restitution = e, .friction = mu});
+    const double start = world.energy().total();
+    double before = start;
+    double overlap = 0;
+    while (world.time() < 0.5) {
+        const carom::StepReport& report = world.step(dt);
+        ASSERT_LE(static_cast<double>(report.impacts + report.face_impacts), most) << world.time();
+        ASSERT_LE(world.energy().total(), before + 1e-9 * start) << world.time();
+        before = world.energy().total();
+        const std::vector<BodyId> ids = world.ids();
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+            const Vec3 x = world.get(ids[k]).position;
+            overlap = std::max(overlap, 0.5 - x.z);
+            for (std::size_t l = 0; l < k; ++l) overlap = std::max(overlap, 1 - length(x - world.get(ids[l]).position));
+        }
+    }
+    const carom::Ledger& ledger = world.ledger();
+    EXPECT_NEAR(before + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-6 * start);
+    EXPECT_LT(overlap, 1e-6);
+}
+
+TEST(Rest, LeaningOnABodyThatLiesIsBoundedWork) {
+    for (const Lean& lean : leans()) {
+        for (const double e : {0.0, 0.3, 0.9}) {
+            for (const double mu : {0.0, 0.5}) {
+                for (const double mass : {1.0, 1000.0, 0.001}) {
+                    SCOPED_TRACE(std::string(lean.name) + ", e = " + std::to_string(e) +
+                                 ", mu = " + std::to_string(mu) + ", mass = " + std::to_string(mass));
+                    expect_bounded(lean, e, mu, mass);
+                }
+            }
+        }
+    }
+}
+
+TEST(Rest, AHeavyBodyDoesNotSinkIntoALightOne) {
+    WorldOptions options = floor_world();
+    options.work_cap = 100000;
+    for (const bool islands : {false, true}) {
+        for (const std::uint32_t windows : {1U, 7U}) {
+            options.serial_reference = !islands;
+            options.min_windows = windows;
+            World world(options);
+            world.add({.position = {0, 0, 0.5}, .restitution = 0});
+            const BodyId heavy = world.add({.position = {0, 0, 2}, .mass = 1000, .restitution = 0});
+            run(world, 1);
+            // Each contact gives way by g t_c^2 / 32 at most; e = 0 ends the fall at the first impacts.
+            EXPECT_NEAR(world.get(heavy).position.z, 1.5, 1e-9);
+            EXPECT_LT(length(world.get(heavy).velocity), g * options.collapse_time);
+        }
+    }
+}
+
+TEST(Rest, WindowsAndIslandsDoNotMatterWhereABodyLeans) {
+    for (const Lean& lean : leans()) {
+        std::vector<std::uint64_t> hashes;
+        for (const bool reference : {true, false}) {
+            for (const std::uint32_t windows : {1U, 7U}) {
+                WorldOptions options;
+                options.gravity = {0, 0, -g};
+                options.region = lean.region;
+                options.serial_reference = reference;
+                options.min_windows = windows;
+                World world(options);
+                for (const Vec3& x : lean.lying) world.add({.position = x, .restitution = 0.3, .friction = 0.2});
+                world.add({.position = lean.leaning, .mass = 2, .restitution = 0.3, .friction = 0.2});
+                run(world, 0.35);
+                hashes.push_back(world.hash());
+            }
+        }
+        for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front()) << lean.name;
     }
 }
 
