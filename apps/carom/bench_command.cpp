@@ -27,6 +27,7 @@ struct BenchOptions {
     std::optional<std::uint64_t> threads;
     std::optional<Precision> precision;
     std::optional<std::uint64_t> repeat;
+    bool skip_overlap = false;
     bool json = false;
 };
 
@@ -151,7 +152,7 @@ int bench(const BenchOptions& options) {
     }
     scene::Summary summary = summary_of(plan, repeats, threads);
     summary.peak_rss_bytes = peak_resident_bytes();
-    summary.overlap = search_overlaps(plan, summary.hash);
+    if (!options.skip_overlap) summary.overlap = search_overlaps(plan, summary.hash);
     if (options.json) {
         fmt::print("{}", scene::file_text(to_json(plan, summary)));
     } else {
@@ -183,6 +184,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
     add_threads(*command, options->threads);
     add_precision(*command, options->precision);
     add_count(*command, "--repeat", "how often to measure all of it (default: 3)", 1, 1000, options->repeat);
+    command->add_flag("--skip-overlap", options->skip_overlap,
+                      "no search for overlaps, which does all steps once more");
     add_json(*command, options->json);
     command->footer(workload_help());
     command->callback([options, &exit_code] { exit_code = bench(*options); });

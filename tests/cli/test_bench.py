@@ -1,11 +1,8 @@
-"""What `carom bench` and `carom info` print, and the table that bench/run makes of it."""
+"""What `carom bench` and `carom info` print."""
 
-import csv
-import os
-import subprocess
 import unittest
 
-from carom_cli import PROGRAM, ROOT, CliTest
+from carom_cli import CliTest
 
 CONTRACT = {"bodies", "steps", "dt", "threads", "precision", "simd", "wall_seconds", "ns_per_body_step",
             "ns_per_body_step_min", "impacts", "impacts_per_second", "contacts", "energy_initial", "energy_final",
@@ -63,6 +60,10 @@ class Bench(CliTest):
         self.assertEqual(first["hash"], second["hash"])
         self.assertNotEqual(first["hash"], self.bench("gas", 300, "--steps", 20, "--repeat", 1)["hash"])
 
+    def test_without_search_for_overlaps(self):
+        result = self.bench("gas", 50, "--steps", 3, "--repeat", 1, "--skip-overlap")
+        self.assertEqual([result[key] for key in ("max_overlap", "mean_overlap", "bodies_outside")], [None] * 3)
+
     def test_text_for_people(self):
         out, err = self.carom("bench", "gas", "--bodies", 100, "--steps", 5, "--warmup", 1)
         self.assertEqual(err, "")
@@ -73,20 +74,6 @@ class Bench(CliTest):
         out, _ = self.carom("bench", "--help")
         for workload in WORKLOADS:
             self.assertIn(workload, out)
-
-    def test_table(self):
-        environment = {**os.environ, "CAROM": PROGRAM}
-        arguments = ["--workloads", "gas,cooling", "--bodies", "50,100", "--steps", "5", "--warmup", "2",
-                     "--results", str(self.folder / "results")]
-        done = subprocess.run([ROOT / "bench/run", *arguments], env=environment, capture_output=True, text=True,
-                              check=True)
-        self.assertEqual(self.files("results"), ["cooling.csv", "gas.csv"])
-        with open(self.folder / "results/gas.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([row["bodies"] for row in rows], ["50", "100"])
-        for row in rows:
-            self.assertLessEqual(CONTRACT, set(row))
-            self.assertIn(row["hash"], done.stdout)
 
 
 class Info(CliTest):
