@@ -61,6 +61,7 @@ Progress IslandSolver<Real>::resolve_serially(const Census& census, std::uint64_
 template <class Real>
 void IslandSolver<Real>::predict_first() {
     memberships_.resize(state_.bodies.size(), nowhere);
+    is_turned_.resize(state_.bodies.size() / 64 + 1);
     const std::size_t count = vicinity_.candidates().size();
     costs_.predictions += count;
     counts_.candidates += count;
@@ -75,7 +76,13 @@ void IslandSolver<Real>::predict_first() {
         });
     });
     for (std::vector<Event>& found : found_) {
-        for (const Event& event : found) enter_first(event);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            constexpr std::size_t ahead = 8;
+            const Event& soon = found[std::min(k + ahead, found.size() - 1)];
+            __builtin_prefetch(&memberships_[soon.a]);
+            if (!soon.at_wall()) __builtin_prefetch(&memberships_[soon.b]);
+            enter_first(found[k]);
+        }
         found.clear();
     }
 }
@@ -103,7 +110,8 @@ void IslandSolver<Real>::predict_batch(std::size_t part, std::size_t begin, std:
 template <class Real>
 void IslandSolver<Real>::enter_first(const Event& event) {
     first_events_.push_back(event);
-    const std::uint32_t a = root_of(member_of(event.a));
+    first_members_.push_back(member_of(event.a));
+    const std::uint32_t a = root_of(first_members_.back());
     if (event.at_wall() || state_.bodies.kind[event.b] == Kind::fixed) return;
     const std::uint32_t b = root_of(member_of(event.b));
     parents_[std::max(a, b)] = std::min(a, b);
@@ -140,7 +148,7 @@ void IslandSolver<Real>::form_islands() {
         }
         ++islands_[members_[m].island].roster.end;
     }
-    for (const Event& event : first_events_) ++islands_[members_[memberships_[event.a]].island].events.end;
+    for (const std::uint32_t member : first_members_) ++islands_[members_[member].island].events.end;
     std::uint32_t bodies = 0;
     std::uint32_t events = 0;
     for (Island& island : islands_) {
@@ -155,8 +163,8 @@ void IslandSolver<Real>::form_islands() {
     roster_.resize(count);
     for (const Member& member : members_) roster_[islands_[member.island].roster.end++] = member.body;
     island_events_.resize(first_events_.size());
-    for (const Event& event : first_events_) {
-        island_events_[islands_[members_[memberships_[event.a]].island].events.end++] = event;
+    for (std::size_t k = 0; k < first_events_.size(); ++k) {
+        island_events_[islands_[members_[first_members_[k]].island].events.end++] = first_events_[k];
     }
 }
 
@@ -196,7 +204,8 @@ void IslandSolver<Real>::run_pending() {
         constexpr std::size_t ahead = 4;
         Workshop<Real>& workshop = *workshops_[part];
         for (std::size_t k = begin; k < end && !workshop.has_given_up(); ++k) {
-            if (k + 2 * ahead < end) workshop.prefetch_bodies(bodies_of(islands_[pending_[k + 2 * ahead]]));
+            if (k + 3 * ahead < end) workshop.prefetch_bodies(bodies_of(islands_[pending_[k + 3 * ahead]]));
+            if (k + 2 * ahead < end) workshop.prefetch_lists(bodies_of(islands_[pending_[k + 2 * ahead]]));
             if (k + ahead < end) workshop.prefetch_tracks(bodies_of(islands_[pending_[k + ahead]]));
             Island& island = islands_[pending_[k]];
             island.part = static_cast<std::uint32_t>(part);
@@ -224,7 +233,9 @@ void IslandSolver<Real>::publish(std::uint32_t id) {
         meetings_[0].push_back({id, workshop.meetings[k]});
     }
     for (std::uint32_t k = island.outturn.turned.begin; k < island.outturn.turned.end; ++k) {
-        Member& member = members_[memberships_[workshop.turned[k].body]];
+        const Index body = workshop.turned[k].body;
+        Member& member = members_[memberships_[body]];
+        is_turned_[body / 64] |= std::uint64_t{1} << (body % 64);
         if (member.island != id) continue;
         member.part = island.part;
         member.turned = k;
@@ -245,8 +256,13 @@ void IslandSolver<Real>::cover_strays() {
 
 template <class Real>
 void IslandSolver<Real>::compare_pending() {
-    for_each_in_parts(*executor_, pending_.size(), island_grain,
-                      [this](std::size_t part, std::size_t k) { compare(part, pending_[k]); });
+    for_parts(*executor_, pending_.size(), island_grain, [this](std::size_t part, std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 4;
+        for (std::size_t k = begin; k < end; ++k) {
+            if (k + ahead < end) workshops_[part]->prefetch_lists(bodies_of(islands_[pending_[k + ahead]]));
+            compare(part, pending_[k]);
+        }
+    });
 }
 
 /// Finds the islands one of whose bodies, on a new path, meets one of this island's on its own new path.
@@ -260,7 +276,7 @@ void IslandSolver<Real>::compare(std::size_t part, std::uint32_t id) {
         const Member& member = members_[memberships_[body]];
         if (member.island != id) continue;
         vicinity_.for_each(body, [&](Index other) {
-            if (memberships_[other] == nowhere) return;
+            if ((is_turned_[other / 64] >> (other % 64) & 1U) == 0) return;
             const Member& opposite = members_[memberships_[other]];
             if (opposite.turned == nowhere || opposite.island == id) return;
             if (!islands_[opposite.island].outturn.finished) return;
@@ -272,6 +288,13 @@ void IslandSolver<Real>::compare(std::size_t part, std::uint32_t id) {
 /// Whether any new leg of one meets any of the other.
 template <class Real>
 bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
+    const Turned<Real>& turned_a = turned_of(a);
+    const Turned<Real>& turned_b = turned_of(b);
+    if (turned_a.earlier == nowhere && turned_b.earlier == nowhere &&
+        !vicinity_.may_meet(turned_a.track, turned_b.track,
+                            std::max(turned_a.path.motion.t, turned_b.path.motion.t))) {
+        return false;
+    }
     const auto for_each_leg = [this](const Member& member, auto&& f) {
         const std::uint32_t slot = state_.bodies.trait[member.body].slot;
         const auto path_of = [slot](const Flown<Real>& flown) {
@@ -391,7 +414,12 @@ void IslandSolver<Real>::commit(Outcome& outcome) {
 template <class Real>
 void IslandSolver<Real>::write_back() {
     Bodies<Real>& bodies = state_.bodies;
-    for (const Member& member : members_) {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+        constexpr std::size_t ahead = 8;
+        const Member& soon = members_[std::min(k + ahead, members_.size() - 1)];
+        __builtin_prefetch(&bodies.motion[soon.body]);
+        if (soon.turned != nowhere) __builtin_prefetch(&turned_of(soon));
+        const Member& member = members_[k];
         if (member.turned == nowhere) continue;
         const Turned<Real>& turned = turned_of(member);
         bodies.motion[member.body] = turned.path.motion;
@@ -449,10 +477,14 @@ void IslandSolver<Real>::write_down(Outcome& outcome) {
 
 template <class Real>
 void IslandSolver<Real>::clear_window() {
-    for (const Member& member : members_) memberships_[member.body] = nowhere;
+    for (const Member& member : members_) {
+        memberships_[member.body] = nowhere;
+        is_turned_[member.body / 64] = 0;
+    }
     members_.clear();
     parents_.clear();
     first_events_.clear();
+    first_members_.clear();
     roster_.clear();
     island_events_.clear();
     for (std::vector<Meeting>& meetings : meetings_) meetings.clear();

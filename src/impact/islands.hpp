@@ -116,9 +116,11 @@ private:
     std::array<std::vector<Event>, most_parts> found_;      ///< first events
     std::array<std::vector<Meeting>, most_parts> meetings_; ///< of paths
     std::vector<std::uint32_t> memberships_;                ///< per body: in members_, or nowhere
+    std::vector<std::uint64_t> is_turned_; ///< per body a bit: 0 for most, and in the cache where memberships_ are not
     std::vector<Member> members_;
     std::vector<std::uint32_t> parents_; ///< per member: the forest in which islands are found
     std::vector<Event> first_events_;
+    std::vector<std::uint32_t> first_members_; ///< whose first events these are
     std::vector<Island> islands_;
     std::vector<Index> roster_;
     std::vector<Event> island_events_;

@@ -6,6 +6,15 @@ namespace carom::core {
 
 namespace {
 
+/// Everything in the caller's thread: that is what makes it the reference.
+class SerialLoops : public Executor {
+public:
+    [[nodiscard]] unsigned threads() const noexcept override { return 1; }
+    void run(std::size_t parts, Task task, void* context) override {
+        for (std::size_t part = 0; part < parts; ++part) task(context, part);
+    }
+};
+
 /// The length (m) that ticks are made for: a body and its way through the window.
 double tick_scale(const Census& census, double duration, const Resolution& resolution) {
     return std::max(2 * (census.mean_radius + census.typical_speed * duration), resolution.metres);
@@ -67,15 +76,23 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
     for (Index i = 0; i < bodies.size(); ++i) {
         const Motion<Real>& m = bodies.motion[i];
         const Vec3 a = acceleration_of(state_, i);
-        covers_[i] = swept_box(ticks_, m, a, from, to, slack_);
+        covers_[i] = swept_ball(ticks_, m, a, from, to, slack_);
         if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
     }
-    neighbours_.build(covers_, ticks_.axes(census));
+    SerialLoops loops;
+    neighbours_.build(loops, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
+                      [&](Index i) { return bodies.kind[i] != Kind::fixed; });
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_first(double from, double to) {
-    for (const auto& [a, b] : neighbours_.first_pairs()) predict(a, b, from, to);
+    const Bodies<Real>& bodies = state_.bodies;
+    for (Index a = 0; a < bodies.size(); ++a) {
+        if (bodies.kind[a] == Kind::fixed) continue;
+        neighbours_.for_each(a, [&](Index b) {
+            if (b > a || bodies.kind[b] == Kind::fixed) predict(a, b, from, to);
+        });
+    }
     for (const Index i : near_walls_) predict_walls(i, to);
 }
 
@@ -140,8 +157,8 @@ bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     if (!stays_in_world(state_, body, state_.laws.kick_interval - now)) return false;
     const Vec3 a = acceleration_of(state_, body);
     const Motion<Real>& m = state_.bodies.motion[body];
-    if (neighbours_.covers(body, swept_box(ticks_, m, a, now, to))) return true;
-    neighbours_.cover_anew(body, swept_box(ticks_, m, a, now, to, slack_),
+    if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to))) return true;
+    neighbours_.cover_anew(body, swept_ball(ticks_, m, a, now, to, slack_),
                            [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
     return true;
 }

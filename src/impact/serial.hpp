@@ -59,7 +59,7 @@ private:
     Neighbours neighbours_;
     double slack_ = 0; ///< m, room in the covers for what impacts do
     EventQueue<Real> queue_;
-    std::vector<SweptBox> covers_;
+    std::vector<Ball> covers_;
     std::vector<Index> near_walls_; ///< bodies that may meet a wall in the window
     double impacts_per_body_ = 0;   ///< in the last window
     SolverCosts costs_;

@@ -152,14 +152,16 @@ template <class Real>
 void Workshop<Real>::follow(Index local, Index except, double now) {
     if (given_up_) return;
     const Index body = guests_[local].body;
-    const auto look_at = [&](Index other) { look(local, other, now); };
+    const Track track = guests_[local].track; // guests move when others are admitted
     if (guests_[local].room >= 0) {
-        vicinity_->for_each(body, look_at);
+        vicinity_->for_each_met(body, track, now, [&](Index other) { look(local, other, now); });
     } else {
         const Flown<Real> path = flown(local_, local);
         own_strays_.push_back(local);
         strays.push_back({body, path});
-        vicinity_->for_each_along(path, look_at);
+        vicinity_->for_each_along(path, [&](Index other) {
+            if (vicinity_->may_meet(track, vicinity_->track(other), now)) look(local, other, now);
+        });
     }
     look_at_own(local, except, now);
     for_each_wall_event(local_, local, to_, [&](double time, std::uint32_t wall) {
@@ -167,11 +169,10 @@ void Workshop<Real>::follow(Index local, Index except, double now) {
     });
 }
 
-/// Predicts a body's meeting with one that is still on the path on which it began the window.
+/// Predicts a body's meeting with one whose path at the start of the window it may meet, if that one is still on it.
 template <class Real>
 void Workshop<Real>::look(Index local, Index other, double now) {
     if (other == guests_[local].body) return;
-    if (!vicinity_->may_meet(guests_[local].track, vicinity_->track(other), now)) return;
     Index place = places_.find(other);
     double time = 0;
     ++predictions_;
@@ -230,7 +231,8 @@ void Workshop<Real>::put_out(Outturn& outturn) {
                             .path = flown(local_, local),
                             .earlier = guest.earlier,
                             .flight = local_.bodies.course[local].flight,
-                            .room = guest.room};
+                            .room = guest.room,
+                            .track = guest.track};
         if (result.path.kind == Kind::held) {
             result.hold = static_cast<std::uint32_t>(holds.size());
             holds.push_back(hold_of(local_.bodies, local));
@@ -247,6 +249,11 @@ void Workshop<Real>::prefetch_bodies(std::span<const Index> bodies) const {
         __builtin_prefetch(&state_->bodies.trait[body]);
         vicinity_->prefetch(body);
     }
+}
+
+template <class Real>
+void Workshop<Real>::prefetch_lists(std::span<const Index> bodies) const {
+    for (const Index body : bodies) vicinity_->prefetch_list(body);
 }
 
 template <class Real>

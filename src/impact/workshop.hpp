@@ -34,6 +34,7 @@ struct Turned {
     std::uint32_t hold = nowhere;    ///< in holds, if held
     Flight flight{};
     float room = 0; ///< m, left at the window's end; negative if it has left its cover
+    Track track{};  ///< of the path
 };
 
 /// A body that an impact made leave its cover.
@@ -68,8 +69,9 @@ public:
               const Window& window, std::size_t most_occurrences);
     /// Resolves an island of these bodies, of which these are the first events.
     Outturn run(std::span<const Index> bodies, std::span<const Event> events);
-    /// Asks for the memory of an island that is to run soon, in two stages.
+    /// Asks for the memory of an island that is to run soon, in three stages.
     void prefetch_bodies(std::span<const Index> bodies) const;
+    void prefetch_lists(std::span<const Index> bodies) const;
     void prefetch_tracks(std::span<const Index> bodies) const;
 
     /// The window is for the one queue: an island has too many impacts, or a body leaves the world.

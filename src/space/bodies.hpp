@@ -104,7 +104,7 @@ struct Bodies {
     std::vector<Motion<Real>> motion;
     std::vector<Kind> kind; ///< on its own: predictions read it of every neighbour, and it stays in the cache
     std::vector<Trait<Real>> trait;
-    std::vector<std::uint64_t> user_data;
+    std::vector<std::uint64_t> user_data; ///< empty as long as all are 0
     std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
@@ -122,7 +122,7 @@ struct Bodies {
         f(motion);
         f(kind);
         f(trait);
-        f(user_data);
+        if (!user_data.empty()) f(user_data);
         if (interpolating) f(previous);
     }
 };

@@ -1,119 +1,25 @@
 /// \file
-/// Cells: swept boxes of bodies, sorted so that neighbours in space are neighbours in memory.
+/// Cells: balls of bodies, sorted so that neighbours in space are neighbours in memory.
 ///
-/// Lengths here are *ticks*: every axis is cut into 2^32 of them and taken modulo 2^32, as a torus. A position is a
-/// 32-bit number whose differences wrap correctly; what aliases is told apart by the exact tests that follow. Along
-/// a periodic axis the period is the torus, so that images need no care. Memory goes by bodies, never by volume: a
-/// level's grid of cells covers the torus as often as needed to keep within a few cells per body.
-///
-/// A level has cells of one edge and holds the bodies whose boxes are no longer than that; the next level's edge is
-/// twice as long. Two bodies of one level can then only meet if their cells are neighbours. The last level is one
-/// cell for everything that is too long for the others.
+/// Memory goes by bodies, never by volume: a level's grid of cells covers the torus of ticks as often as needed to keep
+/// within a few cells per body. A level has cells of one edge and holds the balls whose diameters are no longer than
+/// that; the next level's edge is four times as long. Two bodies of one level can then only meet if their cells are
+/// neighbours. The last level is one cell for everything that is too long for the others.
 #pragma once
 
-#include "space/bodies.hpp"
+#include "space/simd_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdint>
+#include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace carom::core {
 
-using Tick = std::uint32_t;
-
-/// Where a body may be during a window: lo + [0, length] on each of the three axes, in ticks. The fourth element of
-/// each, which fills the line, is no part of the box: it says whose box this is and where it is registered.
-struct alignas(32) SweptBox {
-    std::array<Tick, 4> lo{};
-    std::array<Tick, 4> length{};
-
-    static constexpr std::size_t tag = 3;
-    static constexpr Index outdated_bit = 0x80000000U;
-
-    [[nodiscard]] Index body() const { return lo[tag] & ~outdated_bit; }
-    /// The body is registered with another box by now.
-    [[nodiscard]] bool outdated() const { return (lo[tag] & outdated_bit) != 0; }
-    /// Number of the cell among all cells of all levels.
-    [[nodiscard]] std::uint32_t cell() const { return length[tag]; }
-
-    /// Whether all of `inner` lies in this box.
-    [[nodiscard]] bool holds(const SweptBox& inner) const;
-
-    void set_body(Index body) { lo[tag] = body; }
-    void set_outdated() { lo[tag] |= outdated_bit; }
-    void set_cell(std::uint32_t cell) { length[tag] = cell; }
-};
-
-/// Tests boxes against one: conservative, boxes that only share a tick meet. All axes at once and without branches, in
-/// the vector types that GCC and Clang translate for any machine: which axis parts two boxes is anybody's guess.
-class MeetingTest {
-public:
-    explicit MeetingTest(const SweptBox& box)
-        : shifted_lo_(lanes(box.lo) - half_turn), shifted_length_(signed_lanes(lanes(box.length) - half_turn)) {}
-
-    [[nodiscard]] bool operator()(const SweptBox& other) const {
-        const Lanes lo = lanes(other.lo);
-        // Unsigned comparisons as signed ones, both sides shifted by half a turn.
-        const SignedLanes before = signed_lanes(lo - shifted_lo_) > shifted_length_;
-        const SignedLanes behind = signed_lanes(shifted_lo_ - lo) > signed_lanes(lanes(other.length) - half_turn);
-        const auto apart = std::bit_cast<Halves>(before & behind);
-        constexpr std::uint64_t third_lane = 0xffffffffU;
-        return (apart[0] | (apart[1] & third_lane)) == 0;
-    }
-
-private:
-    using Lanes [[gnu::vector_size(16)]] = std::uint32_t;
-    using SignedLanes [[gnu::vector_size(16)]] = std::int32_t;
-    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
-    static constexpr std::uint32_t half_turn = 0x80000000U;
-
-    static Lanes lanes(const std::array<Tick, 4>& values) { return std::bit_cast<Lanes>(values); }
-    static SignedLanes signed_lanes(Lanes values) { return std::bit_cast<SignedLanes>(values); }
-
-    Lanes shifted_lo_;
-    SignedLanes shifted_length_;
-};
-
-/// A list of pairs that keeps its memory and is filled without a branch per element.
-class PairList {
-public:
-    using Pair = std::pair<Index, Index>;
-
-    void clear() { size_ = 0; }
-    [[nodiscard]] std::span<const Pair> pairs() const { return {storage_.data(), size_}; }
-
-    /// Room for `most` more pairs, to be written from here on; `take` tells how far it went.
-    Pair* room(std::size_t most) {
-        if (size_ + most > storage_.size()) storage_.resize(std::max(size_ + most, size_ + size_ / 4));
-        return storage_.data() + size_;
-    }
-    void take(const Pair* end) { size_ = static_cast<std::size_t>(end - storage_.data()); }
-
-    template <class Predicate>
-    void keep_if(Predicate&& keep) {
-        Pair* out = storage_.data();
-        for (std::size_t k = 0; k < size_; ++k) {
-            const Pair pair = storage_[k];
-            *out = pair;
-            out += keep(pair.first, pair.second) ? 1 : 0;
-        }
-        take(out);
-    }
-
-private:
-    std::vector<Pair> storage_;
-    std::size_t size_ = 0;
-};
-
-/// A sorted index of swept boxes that takes changed boxes as it goes.
+/// A sorted index of balls that takes changed ones as it goes.
 class Cells {
 public:
-    using Pair = PairList::Pair;
-
     /// What the choice of levels needs to know of the axes.
     struct Axes {
         std::array<double, 3> metres_per_tick{};
@@ -121,31 +27,39 @@ public:
         std::array<double, 3> extent{};
     };
 
-    /// Registers one box per body; `boxes[i]` is that of body i. Uses its tags.
-    void build(std::vector<SweptBox>& boxes, const Axes& axes);
-    /// Replaces the box of a body; a new body must have the next index.
-    void update(Index body, const SweptBox& box);
-    /// Registers a body with one more box, until the next build().
-    void add(Index body, const SweptBox& box);
+    /// Registers one ball per body: `ball_at(i)` is that of body i.
+    template <class BallAt>
+    void build(std::size_t bodies, const Axes& axes, BallAt&& ball_at);
+    /// Replaces the ball of a body; a new body must have the next index.
+    void update(Index body, const Ball& ball);
+    /// Registers a body with one more ball, until the next build().
+    void add(Index body, const Ball& ball) { add_late(body, ball); }
 
-    /// Every pair of bodies whose boxes of build() meet, once or more often. To be called before any update().
-    void find_pairs(PairList& pairs) const;
+    /// Takes out the ball of a body, which keeps what add() gave it.
+    void remove(Index body);
+    /// Forgets the balls that came last, all by add(), down to the first `late` of late().
+    void undo(std::size_t late);
 
-    /// Calls f(body) for every registered body whose box meets `box`, once or more often.
+    /// Calls f(body) for every registered body one of whose balls meets `ball`, once or more often.
     template <class F>
-    void for_each_meeting(const SweptBox& box, F&& f) const;
+    void for_each_meeting(const Ball& ball, F&& f) const;
 
     /// The bodies in the order of their cells.
-    void spatial_order(std::vector<Index>& order) const;
+    [[nodiscard]] std::span<const Index> spatial_order() const { return {body_.data(), body_.size() - simd_padding}; }
+    /// The bodies whose balls of build() meet that of the k-th body in spatial order; to be called before any update().
+    /// Writes to `found`, from `used` on, and moves `used` on.
+    void find_neighbours(std::uint32_t k, BallSearch search, std::vector<Run>& runs, std::vector<Index>& found,
+                         std::size_t& used) const;
 
     [[nodiscard]] std::size_t size() const { return place_.size(); }
-    /// The box that a body is registered with.
-    [[nodiscard]] const SweptBox& box_of(Index body) const {
+    /// The ball that a body is registered with.
+    [[nodiscard]] Ball ball_of(Index body) const {
         const std::uint32_t place = place_[body];
-        return (place & late_bit) != 0 ? late_[place & ~late_bit].box : sorted_[place];
+        return (place & late_bit) != 0 ? late_[place & ~late_bit].ball : sorted_ball(place);
     }
+    [[nodiscard]] const TickScale& scale() const { return scale_; }
     void prefetch(Index body) const { __builtin_prefetch(&place_[body]); }
-    /// Boxes that were registered beside the sorted ones since build().
+    /// Balls that were registered beside the sorted ones since build().
     [[nodiscard]] std::size_t late() const { return late_.size(); }
 
 private:
@@ -154,12 +68,12 @@ private:
     static constexpr double whole_turn = 4294967296.0;
 
     struct Level {
-        std::array<Tick, 3> edge{};           ///< longest box of this level
+        std::array<Tick, 3> edge{};           ///< longest diameter of this level
         std::array<std::uint32_t, 3> turns{}; ///< how often the grid repeats along the torus
         std::array<std::uint32_t, 3> cells{}; ///< cells along each axis, 1 or at least 3
         std::uint32_t first_cell = 0;
         std::uint32_t population = 0; ///< of build()
-        std::uint32_t late = 0;       ///< boxes that came later
+        std::uint32_t late = 0;       ///< balls that came later
 
         /// Cell coordinate of a tick: rises along each turn of the grid.
         [[nodiscard]] std::uint32_t coordinate(std::size_t axis, Tick tick) const {
@@ -174,11 +88,6 @@ private:
         [[nodiscard]] bool is_last() const { return edge[0] == 0xffffffffU; }
     };
 
-    struct Cell {
-        std::uint32_t start = 0;      ///< of its boxes in sorted_, which end where the next cell's start
-        std::uint32_t late = nothing; ///< head of the list of its late boxes
-    };
-
     /// `count` cells from `first` on, modulo `cells`.
     struct Span {
         std::uint32_t first = 0;
@@ -188,132 +97,139 @@ private:
             const std::uint32_t c = first + k;
             return c < cells ? c : c - cells;
         }
-        [[nodiscard]] bool contains(std::uint32_t c) const {
-            return (c >= first ? c - first : c + cells - first) < count;
-        }
     };
 
-    static Span span_of(const Level& level, std::size_t axis, Tick lo, std::uint64_t length);
-    /// The cells of `level` in which a body registered by its centre may meet a box.
-    static std::array<Span, 3> reach_of(const Level& level, const SweptBox& box);
-
-    void choose_levels(std::vector<SweptBox>& boxes, const Axes& axes);
-    [[nodiscard]] double first_edge(std::size_t bodies) const;
-    static void lay_out_level(Level& level, const Axes& axes);
-    [[nodiscard]] static bool fits(const Level& level, const SweptBox& box);
-    [[nodiscard]] std::size_t level_of(const SweptBox& box) const;
-    static std::uint32_t home_cell(const Level& level, const SweptBox& box);
-    void sort_into_cells(std::vector<SweptBox>& boxes);
-    std::uint32_t add_late(Index body, const SweptBox& box);
-    [[nodiscard]] static bool stays_findable(const Level& level, std::uint32_t cell, const SweptBox& box);
-
-    /// From one place to before another.
-    struct Run {
-        std::uint32_t from = 0;
-        std::uint32_t to = 0;
-    };
-    struct Runs {
-        std::array<Run, 10> runs{};
-        std::size_t count = 0;
-        std::uint32_t boxes = 0;
-
-        void add(std::uint32_t from, std::uint32_t to) {
-            runs[count] = {from, to};
-            count += from < to ? 1 : 0;
-            boxes += to - from;
-        }
-    };
-
-    /// The rows of cells that come after row (y, z) and touch it: half of its neighbours, so that pairs come once.
-    static std::size_t rows_after(const Level& level, std::uint32_t y, std::uint32_t z,
-                                  std::array<std::uint32_t, 4>& rows);
-    /// What the boxes of cell x of a row may meet in the rows after it, and in its own row after the cell.
-    [[nodiscard]] Runs runs_after(std::uint32_t row, std::uint32_t x, std::uint32_t nx,
-                                  std::span<const std::uint32_t> rows) const;
-    void pairs_of_cell(Run cell, const Runs& others, PairList& pairs) const;
-    void pairs_inside(const Level& level, PairList& pairs) const;
-    void pairs_across(const Level& fine, const Level& coarse, PairList& pairs) const;
-    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> sorted_range(const Level& level) const {
-        return {cells_[level.first_cell].start, cells_[level.first_cell + level.cell_count()].start};
-    }
-
-    /// Rows of cells that are to be scanned: asking for their memory in turn, all before the first is needed, hides
-    /// most of the wait.
-    struct Rows {
-        static constexpr std::size_t most = 32;
-        std::array<Run, most> runs{};
-        std::size_t count = 0;
-
-        void add(Run row, const Cell* cells) {
-            __builtin_prefetch(cells + row.from);
-            runs[count++] = row;
-        }
-        [[nodiscard]] bool is_full() const { return count + 2 > most; }
-    };
-
-    template <class F>
-    void for_each_in(const Level& level, const SweptBox& box, F&& f) const;
-    template <class F>
-    void scan_row(const Run& row, const MeetingTest& meets, F& f) const;
-    void prefetch_boxes(const Run& row) const {
-        // The row may be empty and at the end.
-        const SweptBox* const first = sorted_.data() + cells_[row.from].start;
-        __builtin_prefetch(first);
-        __builtin_prefetch(first + 2);
-    }
+    /// A ball's half size along each axis, more than all roundings.
+    using Reach = std::array<std::uint64_t, 3>;
 
     struct Late {
-        SweptBox box{};
+        Ball ball{};
+        Index body = no_index;
         std::uint32_t next = nothing;
     };
 
+    [[nodiscard]] Ball sorted_ball(std::uint32_t place) const {
+        return {{x_[place], y_[place], z_[place]}, radius_[place]};
+    }
+    [[nodiscard]] double ticks_of(double metres, std::size_t axis) const {
+        return metres / static_cast<double>(scale_[axis]);
+    }
+
+    void start_levels(const Axes& axes);
+    void count_diameter(const Ball& ball);
+    void choose_levels(std::size_t sampled);
+    [[nodiscard]] double first_edge(std::size_t bodies) const;
+    void lay_out_levels(const Axes& axes);
+    static void lay_out_level(Level& level, const Axes& axes);
+    [[nodiscard]] bool fits(const Level& level, const Ball& ball) const;
+    [[nodiscard]] std::size_t level_of(const Ball& ball) const;
+    static std::uint32_t home_cell(const Level& level, const Ball& ball);
+    void start_sorting(std::size_t bodies);
+    void place_sorted(Index body, const Ball& ball, std::uint32_t place);
+    std::uint32_t add_late(Index body, const Ball& ball);
+
+    /// Calls f(run of cells) for the cells of `level` in which a registered ball may meet one.
+    template <class F>
+    static void for_each_row(const Level& level, const Ball& ball, const Reach& reach, F&& f);
+    [[nodiscard]] Reach reach_of(const Ball& ball) const;
+    [[nodiscard]] static Span span_of(const Level& level, std::size_t axis, Tick centre, std::uint64_t reach);
+    template <class F>
+    void scan_row(const Run& row, const Ball& ball, F& f) const;
+
+    TickScale scale_{};
     std::vector<Level> levels_;
-    std::vector<SweptBox> sorted_;
-    std::vector<Cell> cells_; ///< and one more, which is the end
+    std::vector<std::uint32_t> starts_; ///< per cell, where its balls begin in the sorted arrays; and their end
+    std::vector<std::uint32_t> late_heads_; ///< per cell, of the list of its late balls
+    // Sorted, and padding.
+    std::vector<Tick> x_;
+    std::vector<Tick> y_;
+    std::vector<Tick> z_;
+    std::vector<float> radius_;
+    std::vector<Index> body_ = std::vector<Index>(simd_padding);
     std::vector<Late> late_;
-    std::vector<std::uint32_t> place_;     ///< per body: where in sorted_, or late_bit | where in late_
-    std::vector<std::uint32_t> histogram_; ///< of the logarithm of box lengths
+    std::vector<std::uint32_t> place_;     ///< per body: where in the sorted arrays, or late_bit | where in late_
+    std::vector<std::uint32_t> histogram_; ///< of the logarithms of diameters
 };
 
+template <class BallAt>
+void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
+    // A sample is enough: levels decide about speed only.
+    constexpr std::size_t sample = 8;
+    start_levels(axes);
+    for (std::size_t i = 0; i < bodies; i += sample) count_diameter(ball_at(static_cast<Index>(i)));
+    choose_levels(bodies);
+    for (std::size_t i = 0; i < bodies; ++i) ++levels_[level_of(ball_at(static_cast<Index>(i)))].population;
+    lay_out_levels(axes);
+    start_sorting(bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const Ball ball = ball_at(static_cast<Index>(i));
+        place_[i] = home_cell(levels_[level_of(ball)], ball);
+        ++starts_[place_[i] + 1];
+    }
+    for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+    for (std::size_t i = 0; i < bodies; ++i) {
+        const auto body = static_cast<Index>(i);
+        place_sorted(body, ball_at(body), starts_[place_[i]]++);
+    }
+    for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
+    starts_[0] = 0;
+}
+
 template <class F>
-void Cells::for_each_in(const Level& level, const SweptBox& box, F&& f) const {
-    const auto [xs, ys, zs] = reach_of(level, box);
-    const MeetingTest meets(box);
-    Rows rows;
-    const auto scan_all = [&] {
-        for (std::size_t k = 0; k < rows.count; ++k) prefetch_boxes(rows.runs[k]);
-        for (std::size_t k = 0; k < rows.count; ++k) scan_row(rows.runs[k], meets, f);
-        rows.count = 0;
-    };
+void Cells::for_each_row(const Level& level, const Ball& ball, const Reach& reach, F&& f) {
+    const Span xs = span_of(level, 0, ball.centre[0], reach[0]);
+    const Span ys = span_of(level, 1, ball.centre[1], reach[1]);
+    const Span zs = span_of(level, 2, ball.centre[2], reach[2]);
     const std::uint32_t end = xs.first + xs.count;
     for (std::uint32_t j = 0; j < zs.count; ++j) {
         for (std::uint32_t i = 0; i < ys.count; ++i) {
             const std::uint32_t row = level.cell_at(0, ys.at(i), zs.at(j));
-            rows.add({row + xs.first, row + std::min(end, xs.cells)}, cells_.data());
-            if (end > xs.cells) rows.add({row, row + (end - xs.cells)}, cells_.data());
-            if (rows.is_full()) scan_all();
+            f(Run{row + xs.first, row + std::min(end, xs.cells)});
+            if (end > xs.cells) f(Run{row, row + (end - xs.cells)});
         }
+    }
+}
+
+template <class F>
+void Cells::scan_row(const Run& row, const Ball& ball, F& f) const {
+    for (std::uint32_t k = starts_[row.from]; k < starts_[row.to]; ++k) {
+        if (balls_meet(ball, sorted_ball(k), scale_)) f(body_[k]);
+    }
+    if (late_.empty()) return;
+    for (std::uint32_t c = row.from; c < row.to; ++c) {
+        for (std::uint32_t k = late_heads_[c]; k != nothing; k = late_[k].next) {
+            if (balls_meet(ball, late_[k].ball, scale_)) f(late_[k].body);
+        }
+    }
+}
+
+template <class F>
+void Cells::for_each_meeting(const Ball& ball, F&& f) const {
+    // Asking for the memory of several rows, all before the first is needed, hides most of the wait.
+    constexpr std::size_t most = 32;
+    std::array<Run, most> rows{};
+    std::size_t count = 0;
+    const auto scan_all = [&] {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint32_t start = starts_[rows[k].from];
+            __builtin_prefetch(x_.data() + start);
+            __builtin_prefetch(y_.data() + start);
+            __builtin_prefetch(z_.data() + start);
+            __builtin_prefetch(radius_.data() + start);
+        }
+        for (std::size_t k = 0; k < count; ++k) scan_row(rows[k], ball, f);
+        count = 0;
+    };
+    const Reach reach = reach_of(ball);
+    for (const Level& level : levels_) {
+        if (level.population + level.late == 0) continue;
+        for_each_row(level, ball, reach, [&](const Run& row) {
+            __builtin_prefetch(starts_.data() + row.from);
+            rows[count++] = row;
+            if (count == most) scan_all();
+        });
     }
     scan_all();
-}
-
-template <class F>
-void Cells::scan_row(const Run& row, const MeetingTest& meets, F& f) const {
-    for (std::uint32_t k = cells_[row.from].start; k < cells_[row.to].start; ++k) {
-        if (meets(sorted_[k]) && !sorted_[k].outdated()) f(sorted_[k].body());
-    }
-    for (std::uint32_t c = row.from; c < row.to; ++c) {
-        for (std::uint32_t k = cells_[c].late; k != nothing; k = late_[k].next) {
-            if (!late_[k].box.outdated() && meets(late_[k].box)) f(late_[k].box.body());
-        }
-    }
-}
-
-template <class F>
-void Cells::for_each_meeting(const SweptBox& box, F&& f) const {
-    for (const Level& level : levels_) {
-        if (level.population + level.late > 0) for_each_in(level, box, f);
-    }
 }
 
 } // namespace carom::core

@@ -1,30 +1,41 @@
 #include "space/neighbours.hpp"
 
 #include <algorithm>
+#include <new>
 
 namespace carom::core {
 
-void Neighbours::make_lists(std::size_t bodies) {
-    first_.assign(bodies + 1, 0);
-    for (const auto& [a, b] : pairs_.pairs()) {
-        ++first_[a];
-        ++first_[b];
-    }
-    std::uint32_t end = 0;
-    for (std::uint32_t& first : first_) first = end += first;
-    asks_list_.assign(bodies, 1);
-    list_.resize(2 * pairs_.pairs().size());
-    // From the ends down: afterwards each entry is where its list begins.
-    for (const auto& [a, b] : pairs_.pairs()) {
-        list_[--first_[a]] = b;
-        list_[--first_[b]] = a;
-    }
+void Neighbours::start_lists(std::size_t bodies) {
+    first_.assign(bodies, nothing);
     newest_link_.assign(bodies, nothing);
     links_.clear();
+    start_extensions();
+    for (Part& part : parts_) part.used = 0;
+}
+
+void Neighbours::make_list(Part& part, std::uint32_t number, std::size_t k, BallSearch search) {
+    const std::size_t place = part.used;
+    if (part.lists.size() <= place) part.lists.resize(place + place / 8 + simd_padding);
+    ++part.used;
+    cells_.find_neighbours(static_cast<std::uint32_t>(k), search, part.runs, part.lists, part.used);
+    if (part.used > place_mask) throw std::bad_alloc();
+    part.lists[place] = static_cast<Index>(part.used - place - 1);
+    first_[cells_.spatial_order()[k]] = number << place_bits | static_cast<std::uint32_t>(place);
+}
+
+std::size_t Neighbours::found() const {
+    std::size_t sum = 0;
+    for (const Part& part : parts_) sum += part.used;
+    return sum - std::min(sum, first_.size());
+}
+
+void Neighbours::drop_extensions() {
+    cells_.undo(extensions_from_);
+    for (; links_.size() > links_before_; links_.pop_back()) newest_link_[links_.back().body] = links_.back().next;
 }
 
 void Neighbours::link(Index body, Index other) {
-    links_.push_back({other, newest_link_[body]});
+    links_.push_back({other, newest_link_[body], body});
     newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
 }
 
@@ -32,9 +43,11 @@ bool Neighbours::knows(Index body, Index other) const {
     for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) {
         if (links_[k].other == other) return true;
     }
-    if (asks_list_[body] == 0) return false;
-    const auto first = list_.begin() + first_[other];
-    const auto end = list_.begin() + first_[other + 1];
-    return std::find(first, end, body) != end;
+    if (first_[body] == nothing) return false;
+    // Lists of build() go both ways, but that of a body without a cover of its own is gone.
+    const std::span<const Index> list = first_[other] == nothing ? list_of(body) : list_of(other);
+    const Index wanted = first_[other] == nothing ? other : body;
+    return std::find(list.begin(), list.end(), wanted) != list.end();
 }
+
 } // namespace carom::core

@@ -1,66 +1,89 @@
 /// \file
-/// Who may meet whom during a window: for each body the list of those whose covers meet its own.
+/// Who may meet whom: for each body the list of those whose covers meet its own.
 #pragma once
 
 #include "space/cells.hpp"
+#include "space/parallel.hpp"
 
 #include <vector>
 
 namespace carom::core {
 
-/// A body's *cover* is a box that holds its swept box with some slack. As long as the body stays in its cover,
-/// whatever impacts do to it, all that it may meet are its neighbours: a list that lies together in memory, where a
-/// search through cells would touch dozens of places. A body that leaves its cover gets a new one, and new links.
+/// A body's *cover* is a ball that it stays in for some time. As long as it does, whatever impacts do to it, all that it
+/// may meet are its neighbours: a list that lies together in memory, where a search through cells would touch dozens of
+/// places. A body that leaves its cover gets a new one, and new links.
 class Neighbours {
 public:
-    using Pair = Cells::Pair;
-
-    /// `covers[i]` is that of body i.
-    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes) {
-        build(covers, axes, [](Index, Index) { return true; });
-    }
-    /// The same with only those pairs of which `keep(a, b)` is true.
-    template <class Predicate>
-    void build(std::vector<SweptBox>& covers, const Cells::Axes& axes, Predicate&& keep) {
-        cells_.build(covers, axes);
-        pairs_.clear();
-        cells_.find_pairs(pairs_);
-        pairs_.keep_if(keep);
-        make_lists(covers.size());
+    /// `cover_at(i)` is the cover of body i. Those of which `looks_up(i)` is false will never be asked for their
+    /// neighbours, nor get links.
+    template <class CoverAt, class Predicate>
+    void build(Executor& executor, std::size_t bodies, const Cells::Axes& axes, CoverAt&& cover_at,
+               Predicate&& looks_up) {
+        cells_.build(bodies, axes, cover_at);
+        start_lists(bodies);
+        for_parts(executor, bodies, grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+            make_lists(part, begin, end, looks_up);
+        });
     }
 
-    /// Pairs of neighbours as of build(), once or more often; for serial solvers that keep no list per body.
-    [[nodiscard]] std::span<const Pair> first_pairs() const { return pairs_.pairs(); }
-    /// How many pairs build() found.
-    [[nodiscard]] std::size_t pairs() const { return list_.size() / 2; }
+    /// How many neighbours build() found, over all bodies.
+    [[nodiscard]] std::size_t found() const;
 
-    /// Whether `box` lies in the cover of a body.
-    [[nodiscard]] bool covers(Index body, const SweptBox& box) const { return cells_.box_of(body).holds(box); }
-    /// Replaces the cover of a body and finds its neighbours again. Those of which `looks_up(other)` is false will
-    /// never be asked for their own neighbours.
+    /// Whether `ball` lies in the cover of a body.
+    [[nodiscard]] bool covers(Index body, const Ball& ball) const {
+        return ball_holds(cells_.ball_of(body), ball, cells_.scale());
+    }
+    /// Replaces the cover of a body and finds its neighbours again.
     template <class Predicate>
-    void cover_anew(Index body, const SweptBox& cover, Predicate&& looks_up) {
+    void cover_anew(Index body, const Ball& cover, Predicate&& looks_up) {
         cells_.update(body, cover);
-        asks_list_[body] = 0;
+        first_[body] = nothing;
         newest_link_[body] = nothing;
         link_all(body, cover, looks_up);
     }
-    /// Covers a body with one more box.
+    /// Takes a body's cover away, and its neighbours.
+    void uncover(Index body) {
+        cells_.remove(body);
+        first_[body] = nothing;
+        newest_link_[body] = nothing;
+    }
+
+    /// From here on covers are only extended, until drop_extensions().
+    void start_extensions() {
+        extensions_from_ = cells_.late();
+        links_before_ = links_.size();
+    }
+    /// Covers a body with one more ball for a while.
     template <class Predicate>
-    void extend_cover(Index body, const SweptBox& cover, Predicate&& looks_up) {
+    void extend_cover(Index body, const Ball& cover, Predicate&& looks_up) {
         cells_.add(body, cover);
         link_all(body, cover, looks_up);
     }
-    /// Calls f(other) for every body whose cover meets the box, once or more often.
+    /// Takes away what extend_cover() gave.
+    void drop_extensions();
+    /// Calls f(other) for every body one of whose covers meets the ball, once or more often.
     template <class F>
-    void for_each_meeting(const SweptBox& box, F&& f) const {
-        cells_.for_each_meeting(box, f);
+    void for_each_meeting(const Ball& ball, F&& f) const {
+        cells_.for_each_meeting(ball, f);
     }
 
     /// Calls f(other) for every neighbour, once or more often.
     template <class F>
     void for_each(Index body, F&& f) const {
-        for (std::uint32_t k = first_[body]; asks_list_[body] != 0 && k < first_[body + 1]; ++k) f(list_[k]);
+        for (const Index other : list_of(body)) f(other);
+        for_each_link(body, f);
+    }
+
+    /// The part of a body's neighbours that lies together; it may be read up to simd_padding elements behind its end.
+    [[nodiscard]] std::span<const Index> list_of(Index body) const {
+        const std::uint32_t first = first_[body];
+        if (first == nothing) return {};
+        const Index* const list = parts_[first >> place_bits].lists.data() + (first & place_mask);
+        return {list + 1, list[0]};
+    }
+    /// Calls f(other) for the others, once or more often.
+    template <class F>
+    void for_each_link(Index body, F&& f) const {
         for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) f(links_[k].other);
     }
 
@@ -70,6 +93,15 @@ public:
         __builtin_prefetch(&newest_link_[body]);
         cells_.prefetch(body);
     }
+    /// Then, for that of its list.
+    void prefetch_list(Index body) const {
+        const std::uint32_t first = first_[body];
+        if (first == nothing) return;
+        const Index* const list = parts_[first >> place_bits].lists.data() + (first & place_mask);
+        constexpr std::size_t line = 16;
+        __builtin_prefetch(list);
+        __builtin_prefetch(list + line);
+    }
 
     /// So many covers were replaced that searching among the outdated ones costs more than building anew.
     [[nodiscard]] bool crowded() const {
@@ -77,19 +109,38 @@ public:
         return cells_.late() > few + 2 * cells_.size();
     }
 
-    void spatial_order(std::vector<Index>& order) const { cells_.spatial_order(order); }
-
 private:
     static constexpr std::uint32_t nothing = 0xffffffffU;
+    static constexpr std::size_t grain = 2048;
+    /// A list is named by its part and by where it begins there: with its length.
+    static constexpr std::uint32_t place_bits = 27;
+    static constexpr std::uint32_t place_mask = (1U << place_bits) - 1;
+    static_assert(most_parts <= 1U << (32 - place_bits));
 
     struct Link {
         Index other = no_index;
         std::uint32_t next = nothing;
+        Index body = no_index; ///< whose link it is
+    };
+    struct Part {
+        std::vector<Index> lists;
+        std::size_t used = 0;
+        std::vector<Run> runs;
     };
 
-    void make_lists(std::size_t bodies);
+    void start_lists(std::size_t bodies);
     template <class Predicate>
-    void link_all(Index body, const SweptBox& cover, Predicate&& looks_up) {
+    void make_lists(std::size_t part, std::size_t begin, std::size_t end, Predicate&& looks_up) {
+        const BallSearch search = ball_search();
+        for (std::size_t k = begin; k < end; ++k) {
+            const Index body = cells_.spatial_order()[k];
+            if (looks_up(body)) make_list(parts_[part], static_cast<std::uint32_t>(part), k, search);
+        }
+    }
+    void make_list(Part& part, std::uint32_t number, std::size_t k, BallSearch search);
+
+    template <class Predicate>
+    void link_all(Index body, const Ball& cover, Predicate&& looks_up) {
         cells_.for_each_meeting(cover, [&](Index other) {
             if (other == body) return;
             link(body, other);
@@ -102,12 +153,12 @@ private:
     [[nodiscard]] bool knows(Index body, Index other) const;
 
     Cells cells_;
-    PairList pairs_;
-    std::vector<std::uint32_t> first_;    ///< per body: where its neighbours begin in list_; and the end
-    std::vector<std::uint8_t> asks_list_; ///< per body: false once its cover was replaced
-    std::vector<Index> list_;
+    std::array<Part, most_parts> parts_;
+    std::vector<std::uint32_t> first_;       ///< per body: its list of build(), or nothing once its cover was replaced
     std::vector<std::uint32_t> newest_link_; ///< per body: head of its later neighbours
     std::vector<Link> links_;
+    std::size_t extensions_from_ = 0; ///< in the cells
+    std::size_t links_before_ = 0;    ///< the extensions
 };
 
 } // namespace carom::core

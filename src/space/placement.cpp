@@ -3,17 +3,15 @@
 namespace carom::core {
 
 template <class Real>
-SweptBox Placement<Real>::box_of(Index i) const {
-    return ticks_.box(state_.bodies.motion[i].x, {}, {}, static_cast<double>(state_.bodies.motion[i].radius));
+Ball Placement<Real>::ball_of(Index i) const {
+    return ticks_.ball(state_.bodies.motion[i].x, {}, static_cast<double>(state_.bodies.motion[i].radius));
 }
 
 template <class Real>
 void Placement<Real>::build() {
     const Census census = take_census(state_.bodies);
     ticks_ = Ticks(state_.bounds, state_.resolution, std::max(2 * census.mean_radius, state_.resolution.metres));
-    std::vector<SweptBox> boxes(state_.bodies.size());
-    for (Index i = 0; i < boxes.size(); ++i) boxes[i] = box_of(i);
-    cells_.build(boxes, ticks_.axes(census));
+    cells_.build(state_.bodies.size(), ticks_.axes(census), [this](Index i) { return ball_of(i); });
     valid_ = true;
 }
 
@@ -26,7 +24,7 @@ void Placement<Real>::note(Index first, Index last) {
         forget();
         return;
     }
-    for (Index i = first; i <= last; ++i) cells_.update(i, box_of(i));
+    for (Index i = first; i <= last; ++i) cells_.update(i, ball_of(i));
 }
 
 template <class Real>
@@ -35,7 +33,7 @@ std::optional<Index> Placement<Real>::overlapping(Index i, Index end) {
     const Bodies<Real>& bodies = state_.bodies;
     const auto radius = static_cast<double>(bodies.motion[i].radius);
     std::optional<Index> first;
-    cells_.for_each_meeting(box_of(i), [&](Index other) {
+    cells_.for_each_meeting(ball_of(i), [&](Index other) {
         if (other == i || other >= end || (first && *first <= other)) return;
         if (bodies.kind[i] == Kind::fixed && bodies.kind[other] == Kind::fixed) return;
         const auto other_radius = static_cast<double>(bodies.motion[other].radius);

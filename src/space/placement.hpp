@@ -32,7 +32,7 @@ public:
 
 private:
     void build();
-    [[nodiscard]] SweptBox box_of(Index i) const;
+    [[nodiscard]] Ball ball_of(Index i) const;
 
     const State<Real>& state_;
     Ticks ticks_;

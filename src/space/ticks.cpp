@@ -60,8 +60,7 @@ Ticks::Ticks(const Bounds& bounds, const Resolution& resolution, double scale) {
             axis.per_metre = std::ldexp(resolution.per_metre, -shift);
         }
     }
-    constexpr double short_ticks = 1.0e9;
-    surely_short_ = short_ticks / std::max({axes_[0].per_metre, axes_[1].per_metre, axes_[2].per_metre});
+    longest_tick_ = 1 / std::min({axes_[0].per_metre, axes_[1].per_metre, axes_[2].per_metre});
 }
 
 Cells::Axes Ticks::axes(const Census& census) const {

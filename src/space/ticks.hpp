@@ -1,5 +1,5 @@
 /// \file
-/// From motions to swept boxes: the conversion of positions to ticks.
+/// From motions to balls: the conversion of positions to ticks.
 #pragma once
 
 #include "space/bounds.hpp"
@@ -53,42 +53,30 @@ private:
 template <class Real>
 Census take_census(const Bodies<Real>& bodies);
 
-/// Turns positions into ticks, conservatively: boxes are a few ticks larger than the truth, never smaller.
+/// Turns positions into ticks, conservatively: balls are a few ticks larger than the truth, never smaller.
 class Ticks {
 public:
     Ticks() = default;
     /// `scale` (m) is the length that is to be some 2^15 ticks where an axis is not periodic.
     Ticks(const Bounds& bounds, const Resolution& resolution, double scale);
 
-    /// The box of a body at `x` (units) that moves from `low` to `high` (m, relative to x) and has a radius (m).
-    [[nodiscard]] SweptBox box(const Int3& x, const Vec3& low, const Vec3& high, double radius) const {
-        return box(of(x), low, high, radius);
-    }
-    /// The same for a place in ticks.
-    [[nodiscard]] SweptBox box(const std::array<Tick, 3>& x, const Vec3& low, const Vec3& high, double radius) const {
-        SweptBox box;
-        const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
-        const double reach = farther(low.x, high.x) + farther(low.y, high.y) + farther(low.z, high.z) + radius;
-        if (reach < surely_short_) {
-            set_axis(axes_[0], x[0], low.x - radius, high.x + radius, box.lo[0], box.length[0]);
-            set_axis(axes_[1], x[1], low.y - radius, high.y + radius, box.lo[1], box.length[1]);
-            set_axis(axes_[2], x[2], low.z - radius, high.z + radius, box.lo[2], box.length[2]);
-        } else {
-            set_long_axis(axes_[0], x[0], low.x - radius, high.x + radius, box.lo[0], box.length[0]);
-            set_long_axis(axes_[1], x[1], low.y - radius, high.y + radius, box.lo[1], box.length[1]);
-            set_long_axis(axes_[2], x[2], low.z - radius, high.z + radius, box.lo[2], box.length[2]);
-        }
-        return box;
+    /// A ball around x (units) + d (m), a little larger than `radius` (m): conservative.
+    [[nodiscard]] Ball ball(const Int3& x, const Vec3& d, double radius) const {
+        constexpr double rounding = 1 + 2e-6;
+        constexpr double ticks_off = 4;
+        return {of(x, d), static_cast<float>(radius * rounding + ticks_off * longest_tick_)};
     }
 
     /// A position, to within a tick along each axis.
     [[nodiscard]] std::array<Tick, 3> of(const Int3& x) const {
         return {base(axes_[0], x.x), base(axes_[1], x.y), base(axes_[2], x.z)};
     }
-    /// The same, moved on by `d` (m, much less than the torus).
+    /// The same, moved on by `d` (m).
     [[nodiscard]] std::array<Tick, 3> of(const Int3& x, const Vec3& d) const {
         const auto moved = [](const Axis& axis, std::int64_t from, double metres) {
-            return base(axis, from) + static_cast<Tick>(static_cast<std::int64_t>(metres * axis.per_metre));
+            constexpr double far = 4e18; // more is nonsense on any torus
+            const double ticks = std::clamp(metres * axis.per_metre, -far, far);
+            return base(axis, from) + static_cast<Tick>(static_cast<std::int64_t>(ticks));
         };
         return {moved(axes_[0], x.x, d.x), moved(axes_[1], x.y, d.y), moved(axes_[2], x.z, d.z)};
     }
@@ -107,34 +95,13 @@ private:
         double per_metre = 0;   ///< ticks per m
     };
 
-    static void set_axis(const Axis& axis, Tick x, double low, double high, Tick& lo, Tick& length) {
-        // A tick of room on each side for the truncations, and one for the rounding of x.
-        const std::int64_t from = static_cast<std::int64_t>(low * axis.per_metre) - 2;
-        const std::int64_t to = static_cast<std::int64_t>(high * axis.per_metre) + 2;
-        lo = x + static_cast<Tick>(from);
-        length = static_cast<Tick>(to - from);
-    }
-
-    /// A box that may be longer than the torus: then it is all of it.
-    static void set_long_axis(const Axis& axis, Tick x, double low, double high, Tick& lo, Tick& length) {
-        constexpr double most = 4.0e9;
-        constexpr double far = 1.0e18;
-        const double first = low * axis.per_metre;
-        const double last = high * axis.per_metre;
-        if (last - first < most && first > -far && last < far) {
-            set_axis(axis, x, low, high, lo, length);
-        } else {
-            length = 0xffffffffU;
-        }
-    }
-
     static Tick base(const Axis& axis, std::int64_t x) {
         if (axis.per_unit == 0) return static_cast<Tick>(x >> axis.shift);
         return static_cast<Tick>(static_cast<std::int64_t>(static_cast<double>(x - axis.start) * axis.per_unit));
     }
 
     std::array<Axis, 3> axes_{};
-    double surely_short_ = 0; ///< m, a reach whose box is far shorter than the torus
+    double longest_tick_ = 0; ///< m
 };
 
 /// Widens [low, high] by the apex of a parabola, if it has one between t0 and t1.
@@ -147,11 +114,10 @@ inline void include_apex(double speed, double acceleration, double t0, double t1
     high = std::max(high, d);
 }
 
-/// The box of a motion over [from, to] (s since the start of the step, not before motion.t), with `slack` (m) more on
-/// each side.
+/// A ball that holds a motion over [from, to] (s since the start of the step, not before motion.t), and `slack` (m) more.
 template <class Real>
-SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& acceleration, double from, double to,
-                   double slack = 0) {
+Ball swept_ball(const Ticks& ticks, const Motion<Real>& motion, const Vec3& acceleration, double from, double to,
+                double slack = 0) {
     const Vec3 v = velocity_of(motion);
     const double t0 = from - motion.t;
     const double t1 = to - motion.t;
@@ -165,7 +131,8 @@ SweptBox swept_box(const Ticks& ticks, const Motion<Real>& motion, const Vec3& a
         include_apex(v.y, acceleration.y, t0, t1, low.y, high.y);
         include_apex(v.z, acceleration.z, t0, t1, low.z, high.z);
     }
-    return ticks.box(motion.x, low, high, static_cast<double>(motion.radius) + slack);
+    return ticks.ball(motion.x, (low + high) * 0.5,
+                      0.5 * length(high - low) + static_cast<double>(motion.radius) + slack);
 }
 
 } // namespace carom::core

@@ -16,8 +16,9 @@ constexpr double most_rooms = 4;
 /// s until a body may have come `gap` m nearer, at `speed` (m/s) and `acceleration` (m/s^2) at most.
 double time_to_cover(double gap, double speed, double acceleration) {
     if (gap <= 0) return 0;
+    if (acceleration == 0) return gap / speed;
     const double top = speed + std::sqrt(speed * speed + 2 * acceleration * gap);
-    return top > 0 ? 2 * gap / top : std::numeric_limits<double>::infinity();
+    return 2 * gap / top;
 }
 
 void sort_and_unite(std::vector<Index>& bodies) {
@@ -43,11 +44,13 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
     if (kicked != kicked_) forget();
     kicked_ = kicked;
     step_end_ = window.step_end;
+    track_search_ = track_search();
     exits_.clear();
     if (continues_epoch(window)) {
         ++window_;
         window_start_ = relative(window.from);
         window_end_ = static_cast<float>(exact_relative(window.to) + slack_ * length_);
+        neighbours_.drop_extensions();
         if (window.from == 0) charge_held();
         renew_disturbed();
     } else {
@@ -79,11 +82,12 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
     calendar_.clear();
     disturbed_.clear();
     if (!kicked_ || !carry_on(window, left_in_step)) {
-        const std::uint32_t ahead = windows_worthwhile(census, duration);
+        if (crowding_ == 0) crowding_ = even_crowding(census);
+        const double way = (census.typical_speed + length(state_.laws.gravity) * duration) * duration;
+        const std::uint32_t ahead = windows_worthwhile(census, way);
         set_epoch(window, kicked_ ? left_in_step : ahead);
-        build(census, window, ahead);
+        build(census, way, ahead);
     }
-    turned_ = 0;
     epoch_valid_ = true;
     plan_all();
 }
@@ -106,24 +110,17 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
 /// How many windows the lists had better last. Building costs about `fixed + a pair` a body each time, and every body
 /// that an impact turned looks at its neighbours: more windows mean more room, so more pairs, by its cube.
 template <class Real>
-std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double duration) const {
-    constexpr double fixed = 10; // all in units of one pair found
+std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double way) const {
+    constexpr double fixed = 8; // all in units of one pair found
     constexpr double looked_at = 0.5;
-    constexpr double first_guess = 6;
-    const auto moving = static_cast<double>(std::max<std::size_t>(census.moving, 1));
-    const double speed = census.typical_speed + length(state_.laws.gravity) * duration;
-    const double way = speed * duration;
-    if (!lists_valid_ || typical_size_ <= 0 || windows_ == 0) return static_cast<std::uint32_t>(first_guess);
-    const double reach_then = typical_size_;
-    const double pairs_then = static_cast<double>(neighbours_.pairs()) / moving;
-    const double turned_per_window = turned_ / (moving * (window_ + 1.0));
+    constexpr double planned = 0.4; // anew in every step if bodies are kicked
+    const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t windows = 1;
     for (std::uint32_t k = 1; k <= Calendar::most_windows; ++k) {
-        const double reach = 2 * (census.mean_radius + way * k);
-        const double stretch = reach / reach_then;
-        const double pairs = pairs_then * stretch * stretch * stretch;
-        const double cost = (fixed + pairs) / k + looked_at * turned_per_window * pairs;
+        const double reach = 2 * (census.mean_radius + way * (k + spare_windows()));
+        const double pairs = crowding_ * reach * reach * reach;
+        const double cost = (fixed + pairs) / k + per_window * pairs;
         if (cost >= best) continue;
         best = cost;
         windows = k;
@@ -131,10 +128,30 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double du
     return windows;
 }
 
+/// Room for so many windows more: impacts make some bodies faster.
+template <class Real>
+double Vicinity<Real>::spare_windows() const {
+    constexpr double per_turn = 3;
+    return std::min(1.0, per_turn * turning_);
+}
+
+/// Pairs per body and cube of their reach, 1/m^3, of bodies spread evenly over where they are.
+template <class Real>
+double Vicinity<Real>::even_crowding(const Census& census) const {
+    const auto side = [&](std::int64_t low, std::int64_t high) {
+        return metres_between(low, high, state_.resolution) + 2 * census.mean_radius;
+    };
+    const double volume =
+        side(census.low.x, census.high.x) * side(census.low.y, census.high.y) * side(census.low.z, census.high.z);
+    constexpr double half_sphere = 2.0 / 3 * 3.141592653589793;
+    return volume > 0 ? half_sphere * static_cast<double>(census.moving) / volume : 0;
+}
+
 /// Takes new tracks with the old lists; false if so many bodies have no room that the lists had better be built anew.
 template <class Real>
 bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
     if (!lists_valid_ || neighbours_.crowded()) return false;
+    neighbours_.drop_extensions();
     const float now = relative(window.from);
     set_epoch(window, windows);
     const auto needed = static_cast<float>(windows_ * length_);
@@ -153,36 +170,41 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
 }
 
 template <class Real>
-void Vicinity<Real>::build(const Census& census, const Window& window, std::uint32_t windows_ahead) {
+void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windows_ahead) {
     const std::size_t bodies = state_.bodies.size();
-    const double duration = window.to - window.from;
     exits_.clear();
-    horizon_ = duration * windows_ahead;
-    typical_room_ = (census.typical_speed + length(state_.laws.gravity) * duration) * horizon_;
+    const double windows = windows_ahead + spare_windows();
+    horizon_ = length_ * windows;
+    typical_room_ = way * windows;
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
-    test_ = TrackTest(ticks_.metres_per_tick());
+    for (std::size_t k = 0; k < 3; ++k) scale_[k] = static_cast<float>(ticks_.metres_per_tick()[k]);
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
-    covers_.resize(bodies);
     room_.resize(bodies);
     tracks_.resize(bodies);
     for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t, std::size_t k) {
         const auto body = static_cast<Index>(k);
         prefetch_ahead(state_.bodies.motion.data() + k);
-        covers_[body] = take_cover(body, 0);
+        take_cover(body, 0);
     });
-    neighbours_.build(covers_, ticks_.axes(census), [this](Index a, Index b) {
-        const bool both_fixed = state_.bodies.kind[a] == Kind::fixed && state_.bodies.kind[b] == Kind::fixed;
-        return !both_fixed && test_.balls_meet(tracks_[a], ball_room(a), tracks_[b], ball_room(b));
-    });
+    neighbours_.build(
+        *executor_, bodies, ticks_.axes(census), [this](Index body) { return first_cover(body); },
+        [this](Index body) { return state_.bodies.kind[body] != Kind::fixed; });
     lists_valid_ = true;
+    const auto pairs = 0.5 * static_cast<double>(neighbours_.found());
+    crowding_ = pairs / static_cast<double>(std::max<std::size_t>(census.moving, 1)) /
+                (typical_size_ * typical_size_ * typical_size_);
 }
 
-/// m, how far around its start a body's centre stays, beyond what its track's reach says.
+/// The cover that take_cover() gave at the start of the epoch.
 template <class Real>
-float Vicinity<Real>::ball_room(Index body) const {
-    return state_.bodies.kind[body] == Kind::fixed ? 0 : std::max(room_[body], 0.0F);
+Ball Vicinity<Real>::first_cover(Index body) const {
+    const Track& track = tracks_[body];
+    const bool is_free = state_.bodies.kind[body] == Kind::free;
+    if (!std::isinf(track.reach)) return {track.start, track.reach + (is_free ? room_[body] : 0)};
+    const double radius = static_cast<double>(state_.bodies.motion[body].radius) + reach_margin_;
+    return ticks_.ball(state_.bodies.motion[body].x, {}, room_[body] < 0 ? radius : radius + fall_);
 }
 
 /// Plans for every body, each pair once.
@@ -192,8 +214,9 @@ void Vicinity<Real>::plan_all() {
         const auto body = static_cast<Index>(k);
         plan_exit(part, body, 0);
         plan_wall(part, body, 0);
-        neighbours_.for_each(body, [&](Index other) {
-            if (other > body || state_.bodies.kind[other] == Kind::fixed) plan_pair(part, body, other, 0, 0);
+        if (state_.bodies.kind[body] == Kind::fixed) return;
+        for_each_meeting(body, tracks_[body], 0, epoch_end(), [&](Index other, float time) {
+            if (other > body || state_.bodies.kind[other] == Kind::fixed) plan_pair(part, body, other, time, 0);
         });
     });
 }
@@ -214,16 +237,29 @@ void Vicinity<Real>::renew_disturbed() {
     disturbed_.clear();
 }
 
-/// Bodies that may leave their covers in this window get new ones.
+/// Bodies that may leave their covers in this window get new ones, or balls along their paths if they are too fast.
 template <class Real>
 void Vicinity<Real>::renew_exits() {
     sort_and_unite(exits_);
+    fast_.clear();
     for (const Index body : exits_) {
         if (room_at(body, window_end_) < 0) {
-            cover_anew(body);
-            plan_meetings(0, body, window_start_, window_);
+            const Ball cover = take_cover(body, window_start_);
+            if (room_[body] < 0) {
+                neighbours_.uncover(body);
+                fast_.push_back(body);
+            } else {
+                neighbours_.cover_anew(body, cover,
+                                       [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+                plan_meetings(0, body, window_start_, window_);
+            }
         }
         plan_exit(0, body, window_ + 1);
+    }
+    neighbours_.start_extensions();
+    for (const Index body : fast_) {
+        cover_along(body, flown(state_, body));
+        plan_meetings(0, body, window_start_, window_);
     }
 }
 
@@ -262,7 +298,7 @@ void Vicinity<Real>::collect_due() {
         __builtin_prefetch(&tracks_[soon.first]);
         __builtin_prefetch(&tracks_[soon.second]);
         const auto [a, b] = due_[k];
-        const float time = test_.first_meeting(tracks_[a], tracks_[b], window_start_, epoch_end());
+        const float time = first_meeting(tracks_[a], tracks_[b], window_start_, epoch_end(), scale_);
         if (time == never) return;
         if (time <= window_end_) {
             kept_[part].push_back(due_[k]);
@@ -276,8 +312,8 @@ void Vicinity<Real>::collect_due() {
 
 template <class Real>
 void Vicinity<Real>::cover_along(Index body, const Flown<Real>& path) {
-    for_each_piece(path, [&](const SweptBox& box) {
-        neighbours_.extend_cover(body, box, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    for_each_piece(path, [&](const Ball& ball) {
+        neighbours_.extend_cover(body, ball, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
     });
 }
 
@@ -309,17 +345,34 @@ Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
 
 template <class Real>
 void Vicinity<Real>::settle(std::span<const Turned> turned) {
-    turned_ += static_cast<double>(turned.size());
+    // Of late, more or less.
+    constexpr double weight = 0.25;
+    const auto bodies = static_cast<double>(std::max<std::size_t>(state_.bodies.size(), 1));
+    turning_ += weight * (static_cast<double>(turned.size()) / bodies - turning_);
     const bool is_last = window_ + 1 >= windows_;
     if (is_last && !kicked_) return;
     constexpr std::size_t grain = 512;
-    for_each_in_parts(*executor_, turned.size(), grain,
-                      [&](std::size_t, std::size_t k) { take_track(turned[k].body, turned[k].room, window_end_); });
+    for_parts(*executor_, turned.size(), grain, [&](std::size_t, std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 8;
+        for (std::size_t k = begin; k < end; ++k) {
+            const Index soon = turned[std::min(k + ahead, end - 1)].body;
+            __builtin_prefetch(&state_.bodies.motion[soon]);
+            prefetch(soon);
+            take_track(turned[k].body, turned[k].room, window_end_);
+        }
+    });
     if (is_last) return;
     for (const Index body : near_walls_) plan_wall(0, body, window_ + 1);
-    for_each_in_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t k) {
-        plan_meetings(part, turned[k].body, window_end_, window_ + 1);
-        plan_exit(part, turned[k].body, window_ + 1);
+    for_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 4;
+        const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)].body; };
+        for (std::size_t k = begin; k < end; ++k) {
+            prefetch(soon(k + 3 * ahead));
+            prefetch_list(soon(k + 2 * ahead));
+            prefetch_tracks(soon(k + ahead));
+            plan_meetings(part, turned[k].body, window_end_, window_ + 1);
+            plan_exit(part, turned[k].body, window_ + 1);
+        }
     });
 }
 
@@ -378,16 +431,13 @@ void Vicinity<Real>::take_track(Index body, float room, float now) {
 
 /// Takes the track and the room of a body that is to have a new cover, which is returned.
 template <class Real>
-SweptBox Vicinity<Real>::take_cover(Index body, float now) {
+Ball Vicinity<Real>::take_cover(Index body, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
     const Vec3& g = frame_;
     if (state_.bodies.kind[body] == Kind::fixed) {
         take_track(body, 0, now);
-        const Vec3 fallen = g * (-fall_ / std::max(length(g), std::numeric_limits<double>::min()));
-        const Vec3 low{std::min(0.0, fallen.x), std::min(0.0, fallen.y), std::min(0.0, fallen.z)};
-        const Vec3 high{std::max(0.0, fallen.x), std::max(0.0, fallen.y), std::max(0.0, fallen.z)};
-        return ticks_.box(m.x, low, high, radius + reach_margin_);
+        return ticks_.ball(m.x, {}, radius + reach_margin_ + fall_);
     }
     const double speed = length(velocity_of(m) - g * exact_relative(m.t));
     const double needed = speed * length_ * (1 + 2 * slack_) + sag_;
@@ -399,13 +449,12 @@ SweptBox Vicinity<Real>::take_cover(Index body, float now) {
         room_[body] = -1;
         tracks_[body].reach = std::numeric_limits<float>::infinity();
         tracks_[body].speed = {};
-        return ticks_.box(m.x, {}, {}, radius);
+        return ticks_.ball(m.x, {}, radius + reach_margin_);
     }
     const bool is_held = state_.bodies.kind[body] == Kind::held;
     if (is_held) room_[body] -= static_cast<float>(held_way(m, acceleration_of(state_, body)));
-    const Vec3 own = state_.bodies.kind[body] == Kind::free ? place_at(m, now) : Vec3{};
-    const double extent = room + reach_margin_ + (is_held ? fall_ : sag_);
-    return ticks_.box(m.x, own - Vec3{extent, extent, extent}, own + Vec3{extent, extent, extent}, radius);
+    const Vec3 own = is_held ? Vec3{} : place_at(m, now);
+    return ticks_.ball(m.x, own, radius + reach_margin_ + room + (is_held ? fall_ : sag_));
 }
 
 /// m from a free body's position to where it is in the falling frame at `now`.
@@ -415,13 +464,6 @@ Vec3 Vicinity<Real>::place_at(const Motion<Real>& motion, float now) const {
     const double own = exact_relative(motion.t);
     const Vec3 v = velocity_of(motion) - g * own;
     return v * (static_cast<double>(now) - own) + g * (-0.5 * own * own);
-}
-
-template <class Real>
-void Vicinity<Real>::cover_anew(Index body) {
-    const SweptBox cover = take_cover(body, window_start_);
-    neighbours_.cover_anew(body, cover, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
-    if (room_[body] < 0) cover_along(body, flown(state_, body));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -440,15 +482,14 @@ std::uint32_t Vicinity<Real>::window_of(double time, std::uint32_t earliest) con
 template <class Real>
 void Vicinity<Real>::plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest) {
     plan_wall(part, body, earliest);
-    neighbours_.for_each(body, [&](Index other) { plan_pair(part, body, other, from, earliest); });
+    for_each_meeting(body, tracks_[body], from, epoch_end(),
+                     [&](Index other, float time) { plan_pair(part, body, other, time, earliest); });
 }
 
 template <class Real>
-void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float from, std::uint32_t earliest) {
+void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest) {
     // Whoever is too fast for a track looks for others itself, in each window.
     if (room_[b] < 0 && room_[a] >= 0) return;
-    const float time = test_.first_meeting(tracks_[a], tracks_[b], from, epoch_end());
-    if (time == never) return;
     const std::uint32_t window = window_of(static_cast<double>(time), earliest);
     if (window < windows_) calendar_.add_pair(part, window, a, b);
 }

@@ -33,8 +33,8 @@ Flown<Real> flown(const State<Real>& state, Index i) {
 /// Lists of neighbours, tracks, and a calendar of when bodies may meet. All hold for an *epoch* of several windows, so
 /// that a body which meets nobody in a window costs nothing there.
 ///
-/// A body's cover is the box of a ball with *room* for its centre to move in any direction, impacts or not. A body that
-/// uses its room up gets a new one; a body that is too fast for a ball has boxes along its path, anew in each window.
+/// A body's cover is a ball with *room* for its centre to move in any direction, impacts or not. A body that
+/// uses its room up gets a new one; a body that is too fast for a ball has balls along its path, anew in each window.
 /// Covers lie in the falling frame of tracks. Times that are float are s since the epoch's start.
 template <class Real>
 class Vicinity {
@@ -75,16 +75,28 @@ public:
     [[nodiscard]] Track track_in_window(const Flown<Real>& path) const;
     /// Whether two tracks may meet between `now` (s since the start of the step), in this window, and its end.
     [[nodiscard]] bool may_meet(const Track& a, const Track& b, double now) const {
-        return test_.first_meeting(a, b, relative(now), window_end_) != never;
+        return first_meeting(a, b, relative(now), window_end_, scale_) != never;
+    }
+    /// Calls f(other) for the neighbours of a body, once or more often, that its track may meet between `now` (s since
+    /// the start of the step), in this window, and its end.
+    template <class F>
+    void for_each_met(Index body, const Track& track, double now, F&& f) const {
+        for_each_meeting(body, track, relative(now), window_end_, [&f](Index other, float) { f(other); });
     }
     /// Calls f(other) for every neighbour of a body, once or more often.
     template <class F>
     void for_each(Index body, F&& f) const {
         neighbours_.for_each(body, f);
     }
-    void prefetch(Index body) const { neighbours_.prefetch(body); }
+    /// Asks for the memory that looking for a body's neighbours will need: three stages, some time apart.
+    void prefetch(Index body) const {
+        __builtin_prefetch(&tracks_[body]);
+        __builtin_prefetch(&room_[body]);
+        neighbours_.prefetch(body);
+    }
+    void prefetch_list(Index body) const { neighbours_.prefetch_list(body); }
     void prefetch_tracks(Index body) const {
-        neighbours_.for_each(body, [this](Index other) { __builtin_prefetch(&tracks_[other]); });
+        for (const Index other : neighbours_.list_of(body)) __builtin_prefetch(&tracks_[other]);
     }
 
     /// m, what is left of a body's room when it ends the window on a new path; negative if it leaves its cover.
@@ -92,7 +104,7 @@ public:
     /// Calls f(other) for every body whose cover a path meets from its start to the window's end, once or more often.
     template <class F>
     void for_each_along(const Flown<Real>& path, F&& f) const {
-        for_each_piece(path, [&](const SweptBox& box) { neighbours_.for_each_meeting(box, f); });
+        for_each_piece(path, [&](const Ball& ball) { neighbours_.for_each_meeting(ball, f); });
     }
     /// Covers a body on one more path, until the window's end.
     void cover_along(Index body, const Flown<Real>& path);
@@ -114,10 +126,11 @@ private:
     [[nodiscard]] bool continues_epoch(const Window& window) const;
     void start_epoch(const Census& census, const Window& window);
     void set_epoch(const Window& window, std::uint32_t windows);
-    [[nodiscard]] float ball_room(Index body) const;
-    [[nodiscard]] std::uint32_t windows_worthwhile(const Census& census, double duration) const;
+    [[nodiscard]] std::uint32_t windows_worthwhile(const Census& census, double way) const;
+    [[nodiscard]] double spare_windows() const;
+    [[nodiscard]] double even_crowding(const Census& census) const;
     [[nodiscard]] bool carry_on(const Window& window, std::uint32_t windows);
-    void build(const Census& census, const Window& window, std::uint32_t windows_ahead);
+    void build(const Census& census, double way, std::uint32_t windows_ahead);
     void plan_all();
     void collect_due();
     void renew_disturbed();
@@ -129,17 +142,20 @@ private:
     [[nodiscard]] Track track_of(const Flown<Real>& path, double room) const;
     void take_track(Index body, float room, float now);
     [[nodiscard]] float room_at(Index body, float now) const { return room_[body] - speed_of(tracks_[body]) * now; }
-    SweptBox take_cover(Index body, float now);
+    Ball take_cover(Index body, float now);
+    [[nodiscard]] Ball first_cover(Index body) const;
     [[nodiscard]] Vec3 place_at(const Motion<Real>& motion, float now) const;
-    void cover_anew(Index body);
 
     void plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest);
-    void plan_pair(std::size_t part, Index a, Index b, float from, std::uint32_t earliest);
+    void plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest);
     void plan_exit(std::size_t part, Index body, std::uint32_t earliest);
     void plan_wall(std::size_t part, Index body, std::uint32_t earliest);
     [[nodiscard]] double first_wall_contact(Index body) const;
     [[nodiscard]] std::uint32_t window_of(double time, std::uint32_t earliest) const;
 
+    /// Calls f(other, time) for the neighbours that a track of a body may meet between `from` and `to`.
+    template <class F>
+    void for_each_meeting(Index body, const Track& track, float from, float to, F&& f) const;
     template <class F>
     void for_each_piece(const Flown<Real>& path, F&& f) const;
 
@@ -148,16 +164,19 @@ private:
 
     State<Real>& state_;
     Executor* executor_ = nullptr;
+    TrackSearch track_search_ = nullptr; ///< of this window
 
     // What lasts until the lists are built anew.
     bool lists_valid_ = false;
     Ticks ticks_;
-    TrackTest test_;
+    TickScale scale_{};
     Neighbours neighbours_;
     double typical_room_ = 0; ///< m
     double typical_size_ = 0; ///< m, of a cover
     double reach_margin_ = 0; ///< m, added to radii: more than all roundings of tracks
     double horizon_ = 0;      ///< s that covers are meant to do for
+    double crowding_ = 0;     ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
+    double turning_ = 0;      ///< part of the bodies that end a window on a new path, of late
 
     // The epoch.
     bool epoch_valid_ = false;
@@ -170,7 +189,6 @@ private:
     Vec3 frame_{};              ///< m/s^2, the acceleration of the frame: gravity, or none where bodies are kicked
     double fall_ = 0;           ///< m that the frame falls during the epoch
     double sag_ = 0;            ///< m that a free body falls in the frame
-    double turned_ = 0;         ///< bodies that ended a window of the epoch on a new path
     std::vector<Track> tracks_;
     std::vector<float> room_; ///< m, per body: its room at the epoch's start, had it always been on its track
     Calendar calendar_;
@@ -182,13 +200,32 @@ private:
     std::vector<Pair> candidates_;
     std::vector<Index> near_walls_;
     std::vector<Index> exits_;
+    std::vector<Index> fast_; ///< bodies with balls along their paths
     std::vector<Index> disturbed_;
-    std::vector<SweptBox> covers_;
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 
-/// Cuts a path into pieces that are not much longer than covers are wide: the box of a long slanted path would hold
-/// far too much.
+template <class Real>
+template <class F>
+void Vicinity<Real>::for_each_meeting(Index body, const Track& track, float from, float to, F&& f) const {
+    constexpr std::size_t batch = 192;
+    std::array<Index, batch + simd_padding> bodies; // NOLINT(cppcoreguidelines-pro-type-member-init): written first
+    std::array<float, batch + simd_padding> times;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    const std::span<const Index> list = neighbours_.list_of(body);
+    for (std::size_t begin = 0; begin < list.size(); begin += batch) {
+        const std::size_t count = std::min(batch, list.size() - begin);
+        const std::size_t found = track_search_(tracks_.data(), scale_, track, list.data() + begin, count, from, to,
+                                                {bodies.data(), times.data()});
+        for (std::size_t k = 0; k < found; ++k) f(bodies[k], times[k]);
+    }
+    neighbours_.for_each_link(body, [&](Index other) {
+        const float time = first_meeting(track, tracks_[other], from, to, scale_);
+        if (time != never) f(other, time);
+    });
+}
+
+/// Cuts a path into pieces that are not much longer than covers are wide: a ball around a long path would hold far too
+/// much.
 template <class Real>
 template <class F>
 void Vicinity<Real>::for_each_piece(const Flown<Real>& path, F&& f) const {
@@ -204,11 +241,8 @@ void Vicinity<Real>::for_each_piece(const Flown<Real>& path, F&& f) const {
     const double wanted = std::clamp(std::ceil(length(v) * (end - begin) / (2 * typical_size_)), 1.0, most_pieces);
     const auto pieces = static_cast<int>(wanted);
     for (int k = 0; k < pieces; ++k) {
-        const Vec3 a = fallen + v * (begin + (end - begin) * (k / wanted));
-        const Vec3 b = fallen + v * (begin + (end - begin) * ((k + 1) / wanted));
-        const Vec3 low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-        const Vec3 high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-        f(ticks_.box(path.motion.x, low, high, reach));
+        const Vec3 middle = v * (begin + (end - begin) * ((k + 0.5) / wanted));
+        f(ticks_.ball(path.motion.x, fallen + middle, reach + 0.5 * length(v) * (end - begin) / wanted));
     }
 }
 

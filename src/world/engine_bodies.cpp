@@ -169,7 +169,10 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
                                 .friction = static_cast<Real>(element(columns.friction, k, standard.friction)),
                                 .material = element(columns.material, k, standard.material)});
         bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
-        bodies.user_data.push_back(element(columns.user_data, k, standard.user_data));
+        const std::uint64_t data = element(columns.user_data, k, standard.user_data);
+        // The body just added has none yet.
+        if (data != 0 && bodies.user_data.empty()) bodies.user_data.resize(size() - 1);
+        if (data != 0 || !bodies.user_data.empty()) bodies.user_data.push_back(data);
         if (bodies.interpolating) bodies.previous.push_back(positions[k]);
     }
 }
@@ -260,7 +263,7 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.trait[i].restitution); });
     fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.trait[i].friction); });
     fill(columns.material, [&](Index i) { return bodies.trait[i].material; });
-    fill(columns.user_data, [&](Index i) { return bodies.user_data[i]; });
+    fill(columns.user_data, [&](Index i) { return bodies.user_data.empty() ? 0 : bodies.user_data[i]; });
 }
 
 template <class Real>
@@ -338,7 +341,10 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
     write(columns.restitution, [&](Index i, double e) { bodies.trait[i].restitution = static_cast<Real>(e); });
     write(columns.friction, [&](Index i, double mu) { bodies.trait[i].friction = static_cast<Real>(mu); });
     write(columns.material, [&](Index i, std::uint32_t key) { bodies.trait[i].material = key; });
-    write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data[i] = data; });
+    write(columns.user_data, [&](Index i, std::uint64_t data) {
+        if (data != 0 && bodies.user_data.empty()) bodies.user_data.resize(size());
+        if (!bodies.user_data.empty()) bodies.user_data[i] = data;
+    });
 }
 
 template <class Real>

@@ -10,8 +10,21 @@ namespace {
 /// Loops over bodies have parts of at least so many.
 constexpr std::size_t body_grain = 4096;
 
-/// How many windows a step is cut into. Longer windows mean longer swept boxes and more pairs that never meet; shorter
-/// ones more sorting. Results do not depend on it.
+/// Impacts of a body per m of its way, 1/m, if bodies of one size were spread evenly: the inverse of Enskog's mean free
+/// path, with the contact value of Carnahan & Starling, J. Chem. Phys. 51, 635 (1969).
+double impacts_per_metre(const Census& census, double volume) {
+    constexpr double pi = 3.141592653589793;
+    constexpr double densest = 0.6;
+    const double diameter = 2 * census.mean_radius;
+    const double cross_section = pi * diameter * diameter;
+    const double density = static_cast<double>(census.moving) / volume;
+    const double packing = std::min(density * cross_section * diameter / 6, densest);
+    const double loose = 1 - packing;
+    return std::sqrt(2.0) * density * cross_section * (1 - packing / 2) / (loose * loose * loose);
+}
+
+/// How many windows a step is cut into. In longer windows islands grow together, shorter ones cost more. Results do not
+/// depend on it.
 std::uint32_t window_count(const Census& census, const Bounds& bounds, const Resolution& resolution, double dt) {
     double windows = 1;
     if (census.moving > 1) {
@@ -21,9 +34,13 @@ std::uint32_t window_count(const Census& census, const Bounds& bounds, const Res
         const double volume =
             side(census.low.x, census.high.x) * side(census.low.y, census.high.y) * side(census.low.z, census.high.z);
         const double spacing = std::cbrt(volume / static_cast<double>(census.moving));
-        const double way = std::max(census.mean_radius, spacing / 4);
+        const double way = census.typical_speed * dt;
+        const double longest_way = std::max(census.mean_radius, spacing / 4);
+        constexpr double impacts_per_window = 0.12;
+        if (longest_way > 0) windows = way / longest_way;
+        if (volume > 0) windows = std::max(windows, way * impacts_per_metre(census, volume) / impacts_per_window);
         // Testing all pairs once costs no more than as many windows as there are bodies.
-        if (way > 0) windows = std::clamp(census.typical_speed * dt / way, 1.0, static_cast<double>(census.moving));
+        windows = std::clamp(windows, 1.0, static_cast<double>(census.moving));
     }
     for (int axis = 0; axis < 3; ++axis) {
         // Few periodic images to try for the fastest body.
@@ -235,15 +252,12 @@ void Engine<Real>::keep_spatial_order() {
     const Census census = take_census_in_parts();
     const double scale = std::max(4 * census.mean_radius, setting_.resolution.metres);
     const Ticks ticks(state_.bounds, setting_.resolution, scale);
-    std::vector<SweptBox> boxes(size());
-    for (Index i = 0; i < size(); ++i) {
-        const Motion<Real>& m = state_.bodies.motion[i];
-        boxes[i] = ticks.box(m.x, {}, {}, static_cast<double>(m.radius));
-    }
     Cells cells;
-    cells.build(boxes, ticks.axes(census));
-    std::vector<Index> order;
-    cells.spatial_order(order);
+    cells.build(size(), ticks.axes(census), [&](Index i) {
+        const Motion<Real>& m = state_.bodies.motion[i];
+        return ticks.ball(m.x, {}, static_cast<double>(m.radius));
+    });
+    const std::vector<Index> order(cells.spatial_order().begin(), cells.spatial_order().end());
     reorder(state_.bodies, order);
     islands_.vicinity().forget();
 }
