@@ -334,7 +334,8 @@ float Vicinity<Real>::room_left(Index body, const Flown<Real>& path) const {
                       reach_margin_;
     const double duration = end - path.motion.t;
     if (path.acceleration != g) distance += 0.5 * length(path.acceleration - g) * duration * duration;
-    if (path.kind == Kind::held) distance += held_way(path.motion, path.acceleration);
+    // What is held stays behind the falling frame: it needs another cover, unless it has one already.
+    if (path.kind == Kind::held) distance += held_way(path.motion, path.acceleration) + fall_;
     return static_cast<float>(static_cast<double>(left) - distance);
 }
 

@@ -1,0 +1,197 @@
+// Islands do as the one queue does, bit for bit: in small random worlds with everything in them that a world may have,
+// cut into windows, on threads, and meddled with between steps.
+
+#include <carom/carom.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using carom::BodyId;
+using carom::Box;
+using carom::Impact;
+using carom::Vec3;
+using carom::World;
+using carom::WorldOptions;
+
+/// Runs parts in the order of a fixed shuffle, or from the last to the first.
+class DisorderlyExecutor : public carom::Executor {
+public:
+    explicit DisorderlyExecutor(bool shuffles) : shuffles_(shuffles) {}
+    [[nodiscard]] unsigned threads() const noexcept override { return 3; }
+    void run(std::size_t parts, Task task, void* context) override {
+        std::vector<std::size_t> order(parts);
+        for (std::size_t k = 0; k < parts; ++k) order[k] = parts - 1 - k;
+        if (shuffles_) std::shuffle(order.begin(), order.end(), random_);
+        for (const std::size_t part : order) task(context, part);
+    }
+
+private:
+    bool shuffles_;
+    std::mt19937 random_{5}; // NOLINT(cert-msc51-cpp): fixed
+};
+
+class Random {
+public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+    std::uint32_t below(std::uint32_t end) { return static_cast<std::uint32_t>(engine_()) % end; }
+    /// Multiples of 1/1024: the same on every machine.
+    double within(double low, double high) { return low + (high - low) * (below(1025) / 1024.0); }
+    Vec3 vector(double size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
+    bool chance(std::uint32_t one_in) { return below(one_in) == 0; }
+
+private:
+    std::mt19937 engine_;
+};
+
+constexpr double half_side = 6;
+
+carom::Region random_region(Random& random) {
+    Box box{{-half_side, -half_side, -half_side}, {half_side, half_side, half_side}};
+    switch (random.below(6)) {
+    case 0:
+        return carom::OpenSpace{};
+    case 1:
+        return carom::Shell{.radius = 2 * half_side};
+    case 2:
+        return std::vector<carom::Plane>{{.point = {0, 0, -half_side}},
+                                         {.point = {0, 0, half_side}, .normal = {0.25, 0, -1}}};
+    case 3:
+        for (std::size_t face = 0; face < 6; ++face) box.faces[face].kind = carom::FaceKind::periodic;
+        return box;
+    case 4:
+        for (const std::size_t face : {0U, 1U}) box.faces[face].kind = carom::FaceKind::periodic;
+        return box;
+    default:
+        return box;
+    }
+}
+
+World random_world(unsigned seed) {
+    Random random(seed);
+    WorldOptions options;
+    options.region = random_region(random);
+    options.precision =
+        random.chance(2) ? carom::Precision::single_precision : carom::Precision::double_precision;
+    if (random.chance(2)) options.gravity = random.vector(10);
+    if (random.chance(4)) options.drag = {.linear = 0.1, .quadratic = 0.05};
+    if (random.chance(3)) options.collapse_time = 0.05;
+    World world(options);
+    const double speed = random.chance(3) ? 0.5 : 20;
+    const double e = random.chance(3) ? 1 : random.within(0, 1);
+    for (int k = 0; k < 64; ++k) {
+        const Vec3 lattice{2.8 * (k % 4) - 4.2, 2.8 * ((k / 4) % 4) - 4.2, 2.8 * (k / 16) - 4.2};
+        carom::Body body{.position = lattice + random.vector(0.3),
+                         .velocity = random.vector(speed),
+                         .mass = random.within(0.5, 3),
+                         .radius = random.within(0.1, 0.9),
+                         .restitution = e,
+                         .friction = random.chance(2) ? 0 : 0.3};
+        if (random.chance(16)) body.velocity = random.vector(2000);
+        if (random.chance(8)) {
+            body.mass = std::numeric_limits<double>::infinity();
+            body.velocity = {};
+        }
+        world.add(body, carom::Overlap::accept);
+    }
+    if (random.chance(4)) {
+        const std::array attractor{carom::Attractor{.strength = 50, .softening = 1}};
+        world.set_attractors(attractor);
+    }
+    return world;
+}
+
+/// What a game may do between two steps.
+void meddle(World& world, unsigned seed) {
+    Random random(seed);
+    const std::vector<BodyId> ids = world.ids();
+    const BodyId id = ids[random.below(static_cast<std::uint32_t>(ids.size()))];
+    const bool is_static = std::isinf(world.get(id).mass);
+    switch (random.below(6)) {
+    case 0:
+        if (!is_static) world.change_velocities({{id}}, {{random.vector(30)}});
+        break;
+    case 1:
+        if (ids.size() > 8) world.remove(id);
+        break;
+    case 2:
+        world.add({.position = random.vector(half_side / 2), .radius = 0.2}, carom::Overlap::accept);
+        break;
+    case 3: {
+        carom::Body body = world.get(id);
+        body.position += random.vector(0.5);
+        if (!is_static) body.velocity = random.vector(5);
+        try {
+            world.set(id, body, carom::Overlap::accept);
+        } catch (const carom::Error& error) {
+            ASSERT_EQ(error.code(), carom::ErrorCode::overlap) << error.what();
+        }
+        break;
+    }
+    default:
+        break;
+    }
+}
+
+bool same(const Impact& x, const Impact& y) {
+    return x.offset == y.offset && x.a == y.a && x.b == y.b && x.face == y.face && x.impulse == y.impulse &&
+           x.normal == y.normal && x.position == y.position && x.energy_lost == y.energy_lost;
+}
+
+/// Steps both in the same way; the impacts made.
+std::size_t expect_same(World& one, World& other, unsigned seed, const std::string& what) {
+    Random random(seed);
+    std::size_t impacts = 0;
+    for (unsigned i = 0; i < 24; ++i) {
+        const double dt = random.chance(4) ? random.within(0.001, 0.2) : 1.0 / 60;
+        one.step(dt);
+        other.step(dt);
+        const auto a = one.impacts();
+        const auto b = other.impacts();
+        impacts += a.size();
+        EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) << what << ", step " << i;
+        EXPECT_EQ(one.hash(), other.hash()) << what << ", step " << i;
+        EXPECT_EQ(one.ledger(), other.ledger()) << what << ", step " << i;
+        if (testing::Test::HasFailure()) return impacts;
+        if (random.chance(3)) {
+            meddle(one, 1000 * seed + i);
+            meddle(other, 1000 * seed + i);
+        }
+    }
+    return impacts;
+}
+
+TEST(Solvers, IslandsDoAsTheReferenceInRandomWorlds) {
+    std::size_t impacts = 0;
+    for (unsigned seed = 0; seed < 400; ++seed) {
+        World reference = random_world(seed);
+        World islands = reference;
+        reference.set_serial_reference(true);
+        reference.set_work_cap(20000);
+        islands.set_work_cap(20000);
+        const std::array<std::uint32_t, 3> windows{1, 2, 7};
+        islands.set_min_windows(windows[seed % windows.size()]);
+        if (seed % 4 == 1) islands.set_executor(carom::make_thread_executor(3));
+        if (seed % 4 == 2) islands.set_executor(std::make_shared<DisorderlyExecutor>(false));
+        if (seed % 4 == 3) islands.set_executor(std::make_shared<DisorderlyExecutor>(true));
+        impacts += expect_same(reference, islands, seed, "world " + std::to_string(seed));
+        if (HasFailure()) return;
+    }
+    std::printf("figure: 400 random worlds, %zu impacts: islands as the reference, bit for bit\n", impacts);
+    EXPECT_GT(impacts, 20000U);
+}
+
+TEST(Solvers, AnExecutorMayNotBeNull) {
+    World world;
+    EXPECT_THROW(world.set_executor(nullptr), carom::Error);
+}
+
+} // namespace
