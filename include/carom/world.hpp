@@ -50,6 +50,7 @@ struct WorldOptions {
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;
     /// s, > 0: TC rule. After 8 impacts with flights shorter than this, further ones are elastic until a longer flight.
+    /// Under gravity also how long bodies touch that lean on each other; longer where the resolution asks for it.
     double collapse_time = 1e-5;
     /// Impacts that one step may spend before it ends early; 0 means no cap.
     std::uint64_t work_cap = 0;

@@ -69,8 +69,11 @@ void set_and_book(State<Real>& state, Index body, const Vec3& v, Entry& entry) {
 template <class Real>
 void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, Entry& entry) {
     Motion<Real>& motion = state.bodies.motion[body];
-    const Vec3 v = along_supports(velocity_of(motion), hold.supports);
+    const Vec3 before = velocity_of(motion);
+    const Vec3 v = along_supports(before, hold.supports);
     set_and_book(state, body, v, entry);
+    const double lost = length_squared(before) - length_squared(velocity_of(motion));
+    entry.lost_to_restitution += 0.5 * static_cast<double>(state.bodies.trait[body].mass) * lost;
     const Vec3 all = state.laws.gravity + attraction(state, body);
     const Vec3 pull = along_supports(all, hold.supports);
     const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
@@ -89,7 +92,30 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
     hold.acceleration = slide + hold.friction;
 }
 
+/// Whether a held body is pressed into a support: by what acts on it, or by sliding along its other supports.
+template <class Real>
+bool presses(const State<Real>& state, Index body, const Hold& hold, const Support& support) {
+    const Motion<Real>& motion = state.bodies.motion[body];
+    const std::uint32_t slot = state.bodies.trait[body].slot;
+    if (pressure_on(state, motion, slot, support, velocity_of(motion)).acceleration > 0) return true;
+    std::vector<Support> others = hold.supports;
+    std::erase_if(others, [&](const Support& s) { return s.code == support.code; });
+    const Vec3 all = state.laws.gravity + attraction(state, body);
+    return !others.empty() && dot(along_supports(all, others), support.normal) > along_rounding * length(all);
+}
+
 } // namespace
+
+void set_contact_time(Laws& laws, const Resolution& resolution) {
+    // What a contact gives way by is not to be rounded away.
+    constexpr double least_units = 2;
+    // A bounce at the contact speed takes 16 contact times on a level floor, and on a slope of 14 degrees 64.
+    constexpr double remembered = 64;
+    const double gravity = length(laws.gravity);
+    laws.contact_time =
+        gravity > 0 ? std::max(laws.quick_time, std::sqrt(2 * least_units * resolution.metres / gravity)) : 0;
+    laws.collapse_time = std::max(laws.quick_time, remembered * laws.contact_time);
+}
 
 template <class Real>
 Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion) {
@@ -166,11 +192,9 @@ void refresh_holds(State<Real>& state, double duration, std::vector<Index>& rele
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
         Hold& hold = it->second;
         const Index body = bodies.slots[it->first].index;
-        const Vec3 v = velocity_of(bodies.motion[body]);
-        std::erase_if(hold.supports, [&](Support& s) {
-            s = derived(state, body, s);
-            return pressure_on(state, bodies.motion[body], it->first, s, v).acceleration <= 0;
-        });
+        for (Support& s : hold.supports) s = derived(state, body, s);
+        const Hold all = hold;
+        std::erase_if(hold.supports, [&](const Support& s) { return !presses(state, body, all, s); });
         if (hold.supports.empty()) {
             released.push_back(body);
             bodies.kind[body] = Kind::free;

@@ -13,6 +13,22 @@ inline bool comes_to_rest(double e, double approach, double pressing, double res
     return pressing > 0 && e < 1 && 2 * e * approach < (1 - e) * pressing * rest_time;
 }
 
+/// Derives the times of Laws. A contact between bodies takes quick_time, in which gravity gives a speed of
+/// g quick_time and presses them g quick_time^2 / 2 into each other; more where the resolution would round that away.
+void set_contact_time(Laws& laws, const Resolution& resolution);
+
+/// The contact rule. Bodies that lean on each other have no rest: their bounces would get lower without end, each the
+/// more often. But impacts slower than this (m/s) that follow on others, within collapse_time, belong to a contact,
+/// and lose nothing. So what is left of the bounces, or what gravity gives in the contacts, goes on and keeps the
+/// bodies apart: k layers of them have k g / 2 v impacts each a second, with v from g contact_time to this.
+inline double contact_speed(const Laws& laws) { return 8 * length(laws.gravity) * laws.contact_time; }
+
+/// e of an impact that follows on another, of bodies that approach with more or less than the contact speed.
+inline double lasting_restitution(double e, double approach, const Laws& laws) {
+    const double speed = contact_speed(laws);
+    return approach > speed ? std::max(e, speed / approach) : 1;
+}
+
 /// Approach speed below which rounding of the velocities alone can make bodies seem to approach, m/s: half a unit in
 /// the last place of each component, of both bodies, along the normal. Below the normal range of Real an impact could
 /// leave the velocities as they are, and so happen again and again.

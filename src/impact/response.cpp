@@ -18,6 +18,7 @@ constexpr std::uint16_t still_impacts_allowed = 10000;
 
 /// What a body's impacts in quick succession come to.
 struct Haste {
+    bool lasts = false;     ///< the one before is remembered: slow ones belong to a contact
     bool collapses = false; ///< too many: the TC rule makes further ones elastic
     bool stands = false;    ///< too many, and no further on the way than a contact of finite duration gives way
     bool jams = false;      ///< too many at one place: the jam rule makes further ones inelastic
@@ -28,11 +29,10 @@ template <class Real>
 Haste count_impact(State<Real>& state, Index body, double time, double approach, bool at_support) {
     Flight& flight = state.bodies.course[body].flight;
     const double duration = time - flight.last_impact;
-    if (duration > state.laws.collapse_time) flight.quick_impacts = 0;
+    const bool lasts = flight.quick_impacts > 0 && duration <= state.laws.collapse_time;
+    if (duration > state.laws.quick_time) flight.quick_impacts = 0;
     const bool still = flight.quick_impacts > 0 && approach * duration <= 2 * state.resolution.metres;
-    const double collapse_time = state.laws.collapse_time;
-    const double give =
-        std::max(2 * state.resolution.metres, length(state.laws.gravity) * collapse_time * collapse_time / 8);
+    const double give = std::max(2 * state.resolution.metres, contact_speed(state.laws) * state.laws.contact_time);
     const auto counted = [](bool goes_on, std::uint32_t count, std::uint32_t allowed) {
         return goes_on ? std::min(count + 1, allowed + 1) : 0;
     };
@@ -41,7 +41,8 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
     flight.still_bounces =
         static_cast<std::uint16_t>(counted(still && at_support, flight.still_bounces, still_bounces_allowed));
     flight.last_impact = time;
-    return {.collapses = flight.quick_impacts > quick_impacts_allowed,
+    return {.lasts = lasts,
+            .collapses = flight.quick_impacts > quick_impacts_allowed,
             .stands = flight.quick_impacts > quick_impacts_allowed && approach * duration <= give,
             .jams = flight.still_impacts > still_impacts_allowed || flight.still_bounces > still_bounces_allowed};
 }
@@ -64,13 +65,20 @@ double mass_of(const State<Real>& state, Index body) {
     return static_cast<double>(state.bodies.trait[body].mass);
 }
 
-void apply_haste(const Haste& haste, Encounter& encounter, Occurrence& occurrence) {
+void apply_haste(const Haste& haste, const Laws& laws, double approach, double speed, Encounter& encounter,
+                 Occurrence& occurrence) {
+    double e = encounter.restitution;
     if (haste.jams) {
-        encounter.restitution = 0;
-    } else if (haste.collapses && encounter.restitution != 1) {
-        encounter.restitution = 1;
-        occurrence.is_converted = true;
+        e = 0;
+    } else if (haste.collapses) {
+        e = 1;
+    } else if (haste.lasts) {
+        e = lasting_restitution(e, approach, laws);
     }
+    // Friction would take what keeps the bodies apart; they would sink to get it back.
+    if (haste.lasts && speed < contact_speed(laws)) encounter.friction = 0;
+    occurrence.is_converted = e > encounter.restitution;
+    encounter.restitution = e;
 }
 
 void write_down(const Response<double>& response, Occurrence& occurrence) {
@@ -82,9 +90,12 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
     occurrence.impact.energy_lost = response.energy_lost();
 }
 
+/// What presses a body into a support that it meets: for one that lies already, also its sliding there.
 template <class Real>
 Pressure pressure_here(const State<Real>& state, Index body, const Support& support, const Vec3& v) {
-    return pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
+    Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
+    pressure.acceleration = std::max(pressure.acceleration, dot(acceleration_of(state, body), support.normal));
+    return pressure;
 }
 
 /// A support that a body touches at `time`: whether the body comes to rest there.
@@ -105,17 +116,21 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     bool stays = false;
     bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
-        const Haste haste = count_impact(state, body, time, approach, true);
-        stays = haste.collapses && moves_along_supports(state, body, support.normal);
-        if (!stays) release(state.bodies, body);
+        Haste haste = count_impact(state, body, time, approach, true);
+        // What presses a body on brings it to rest.
+        haste.lasts = haste.lasts && !(pressure_here(state, body, support, v).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
         come_to_rest = come_to_rest || (squeezed && pressure_here(state, body, support, v).acceleration >= 0);
+        // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
+        stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
+                             : haste.collapses && moves_along_supports(state, body, support.normal);
+        if (!stays) release(state.bodies, body);
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
-            apply_haste(haste, encounter, occurrence);
+            apply_haste(haste, state.laws, approach, length(v), encounter, occurrence);
         }
         Vec3 support_velocity{};
         const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
@@ -282,21 +297,21 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     const double approach = dot(v_a - v_b, impact.normal);
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
     const Haste haste_b = count_impact(state, b, impact.offset, approach, false);
-    Haste haste{.collapses = haste_a.collapses || haste_b.collapses, .jams = haste_a.jams || haste_b.jams};
+    Haste haste{.lasts = haste_a.lasts || haste_b.lasts,
+                .collapses = haste_a.collapses || haste_b.collapses,
+                .jams = haste_a.jams || haste_b.jams};
     const bool one_lies = state.bodies.kind[a] == Kind::held || state.bodies.kind[b] == Kind::held;
-    if (one_lies && haste.collapses && stays_on_supports(state, a, -impact.normal) &&
+    const bool is_contact = haste.collapses || (haste.lasts && approach < contact_speed(state.laws));
+    if (one_lies && is_contact && stays_on_supports(state, a, -impact.normal) &&
         stays_on_supports(state, b, impact.normal)) {
-        // With the blow passed on, it is no collapse if an elastic impact were followed by a long enough flight; and
-        // bodies that are pressed together do not fill the room between faces.
+        // With the blow passed on, it is no collapse of bodies that are pressed together, only a contact; nor do they
+        // fill the room between faces.
         const double pressing = pressing_along(impact.normal, length(meeting.delta), v_b - v_a, pull);
-        if (pressing > 0) {
-            haste.jams = false;
-            haste.collapses = 2 * approach < pressing * state.laws.collapse_time;
-        }
-        apply_haste(haste, encounter, occurrence);
+        if (pressing > 0) haste = {.lasts = true};
+        apply_haste(haste, state.laws, approach, length(v_a - v_b), encounter, occurrence);
         if (meet_lying(state, a, b, meeting, encounter, occurrence)) return;
     } else {
-        apply_haste(haste, encounter, occurrence);
+        apply_haste(haste, state.laws, approach, length(v_a - v_b), encounter, occurrence);
     }
     release(state.bodies, a);
     release(state.bodies, b);

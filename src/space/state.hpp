@@ -25,7 +25,9 @@ struct PointField {
 struct Laws {
     Vec3 gravity{};           ///< m/s^2
     double rest_time = 0;     ///< s
-    double collapse_time = 0; ///< s
+    double quick_time = 0;    ///< s, of the TC rule: shorter flights are quick
+    double contact_time = 0;  ///< s, how long bodies that lean on each other touch; 0 without gravity
+    double collapse_time = 0; ///< s, how long an impact is remembered
     double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
     std::vector<MaterialRule> rules{};
     std::vector<PointField> fields{};

@@ -93,7 +93,8 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
     state_.laws.gravity = options.gravity;
     state_.laws.rest_time = options.rest_time;
-    state_.laws.collapse_time = options.collapse_time;
+    state_.laws.quick_time = options.collapse_time;
+    set_contact_time(state_.laws, state_.resolution);
     state_.laws.rules = options.material_rules;
     state_.bodies.interpolating = options.interpolation;
     outcome_.record = options.record_impacts;
@@ -114,6 +115,7 @@ template <class Real>
 void Engine<Real>::set_gravity(const Vec3& gravity) {
     check_finite(gravity, "gravity");
     setting_.options.gravity = state_.laws.gravity = gravity;
+    set_contact_time(state_.laws, state_.resolution);
     islands_.vicinity().forget();
 }
 
