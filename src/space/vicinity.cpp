@@ -102,7 +102,8 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
     // The covers' frame must not change while they last, which may be for many steps if bodies are kicked.
     frame_ = kicked_ ? Vec3{} : state_.laws.gravity;
     fall_ = 0.5 * length(frame_) * duration * duration;
-    sag_ = 0.5 * length(state_.laws.gravity - frame_) * duration * duration;
+    // A path bends from the body's own time on, which may be the start of the step.
+    sag_ = 0.5 * length(state_.laws.gravity - frame_) * window.step_end * window.step_end;
     window_start_ = 0;
     window_end_ = static_cast<float>(length_ * (1 + slack_));
 }
@@ -367,11 +368,12 @@ void Vicinity<Real>::settle(std::span<const Turned> turned) {
     for_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
         constexpr std::size_t ahead = 4;
         const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)].body; };
+        const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack_ * length_);
         for (std::size_t k = begin; k < end; ++k) {
             prefetch(soon(k + 3 * ahead));
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
-            plan_meetings(part, turned[k].body, window_end_, window_ + 1);
+            plan_meetings(part, turned[k].body, from, window_ + 1);
             plan_exit(part, turned[k].body, window_ + 1);
         }
     });
@@ -440,8 +442,10 @@ Ball Vicinity<Real>::take_cover(Index body, float now) {
         take_track(body, 0, now);
         return ticks_.ball(m.x, {}, radius + reach_margin_ + fall_);
     }
+    const bool is_held = state_.bodies.kind[body] == Kind::held;
     const double speed = length(velocity_of(m) - g * exact_relative(m.t));
-    const double needed = speed * length_ * (1 + 2 * slack_) + sag_;
+    const double needed =
+        is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack_) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
     const double room = std::clamp(spare * speed * horizon_, typical_room_, most_rooms * typical_room_);
@@ -452,8 +456,7 @@ Ball Vicinity<Real>::take_cover(Index body, float now) {
         tracks_[body].speed = {};
         return ticks_.ball(m.x, {}, radius + reach_margin_);
     }
-    const bool is_held = state_.bodies.kind[body] == Kind::held;
-    if (is_held) room_[body] -= static_cast<float>(held_way(m, acceleration_of(state_, body)));
+    if (is_held) room_[body] -= static_cast<float>(needed);
     const Vec3 own = is_held ? Vec3{} : place_at(m, now);
     return ticks_.ball(m.x, own, radius + reach_margin_ + room + (is_held ? fall_ : sag_));
 }
