@@ -25,6 +25,7 @@ endfunction()
 
 carom_header_only(fmt fmt::fmt fmt FMT_HEADER_ONLY)
 carom_header_only(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
+carom_header_only(hwy hwy::hwy hwy HWY_COMPILE_ONLY_STATIC)
 carom_header_only(tomlplusplus tomlplusplus::tomlplusplus toml++ TOML_HEADER_ONLY=1)
 
 carom_link_header(xxhash.h)

@@ -17,9 +17,9 @@ install(FILES ${PROJECT_BINARY_DIR}/caromConfigVersion.cmake DESTINATION ${packa
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
     BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_dir}
     OUTPUT_VARIABLE prefix_from_pkgconfig)
-set(carom_pc_requires)
+set(carom_pc_requires libhwy)
 if(CAROM_TBB)
-    set(carom_pc_requires tbb)
+    set(carom_pc_requires "libhwy, tbb")
 endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/carom.pc.in ${PROJECT_BINARY_DIR}/carom.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/carom.pc DESTINATION ${pkgconfig_dir})

@@ -62,10 +62,11 @@ struct Repeat {
     std::uint64_t hash = 0;
 };
 
-Repeat measure(const Plan& plan) {
+Repeat measure(const Plan& plan, unsigned threads) {
     Repeat result;
     const std::uint64_t memory_before = resident_bytes();
     World world = scene::make_world(plan.scene);
+    world.set_threads(threads);
     result.start = scene::read_books(world);
     StepTotals warm_up;
     const std::uint64_t all_steps = plan.warm_up + plan.steps;
@@ -145,7 +146,7 @@ int bench(const BenchOptions& options) {
     const unsigned threads = threads_used(options.threads.value_or(0));
     std::vector<Repeat> repeats;
     for (std::uint64_t i = 0; i < plan.repeats; ++i) {
-        repeats.push_back(measure(plan));
+        repeats.push_back(measure(plan, threads));
         if (repeats.back().hash != repeats.front().hash) {
             throw std::runtime_error("two repeats of one workload ended differently");
         }

@@ -2,6 +2,7 @@
 #include "options.hpp"
 #include "scene/summary.hpp"
 
+#include <carom/simd.hpp>
 #include <carom/world.hpp>
 
 #include <CLI/CLI.hpp>
@@ -55,8 +56,9 @@ nlohmann::ordered_json facts() {
     json["precision"] = scene::name_of(WorldOptions{}.precision);
     json["resolution"] = {{"single", resolution(Precision::single_precision)},
                           {"double", resolution(Precision::double_precision)}};
-    json["simd"] = scene::simd_name;
-    json["threads"] = 1;
+    json["simd"] = simd_target();
+    json["simd_targets"] = simd_targets();
+    json["threads"] = threads_used(0);
     json["cores"] = std::thread::hardware_concurrency();
     return json;
 }
@@ -75,7 +77,7 @@ int info(bool as_json) {
     line("resolution",
          fmt::format("{} m in double, {} m in single precision", json["resolution"]["double"].get<double>(),
                      json["resolution"]["single"].get<double>()));
-    line("simd", json["simd"]);
+    line("simd", fmt::format("{} of {}", simd_target(), fmt::join(simd_targets(), ", ")));
     line("threads", fmt::format("{} used of {} cores", json["threads"].get<unsigned>(), json["cores"].get<unsigned>()));
     return success;
 }

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 namespace carom::cli {
 
@@ -69,10 +71,7 @@ CLI::Option* add_json(CLI::App& app, bool& target) {
 }
 
 unsigned threads_used(std::uint64_t asked_for) {
-    if (asked_for > 1) {
-        fmt::print(stderr, "carom: this version computes with one thread; {} were asked for\n", asked_for);
-    }
-    return 1;
+    return asked_for != 0 ? static_cast<unsigned>(asked_for) : std::max(1U, std::thread::hardware_concurrency());
 }
 
 } // namespace carom::cli

@@ -52,7 +52,7 @@ CLI::Option* add_threads(CLI::App& app, std::optional<std::uint64_t>& target);
 CLI::Option* add_json(CLI::App& app, bool& target);
 /// @}
 
-/// How many threads the engine uses of those asked for, with a note on stderr if these are fewer. This engine has one.
+/// How many threads the engine uses of those asked for; 0: one for each core.
 unsigned threads_used(std::uint64_t asked_for);
 
 } // namespace carom::cli

@@ -131,6 +131,7 @@ int run(const RunOptions& options) {
     const unsigned threads = threads_used(scene.run.threads);
     Simulation simulation(scene);
     if (!options.resume.empty()) simulation.resume(options.resume);
+    simulation.use_threads(threads);
 
     note_interrupts();
     const Ending ending = run_to_its_end(simulation, folder, scene.outputs.checkpoint_every);

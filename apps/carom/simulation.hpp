@@ -50,6 +50,7 @@ public:
     /// The rows that were due, and one for now.
     [[nodiscard]] std::vector<scene::TimelineRow> timeline() const;
     [[nodiscard]] const std::string& impact_log() const { return progress_.impact_log; }
+    void use_threads(unsigned threads) { world_.set_threads(threads); }
     [[nodiscard]] scene::Summary summary(unsigned threads);
     /// Steps that were done before this process went on from a checkpoint.
     [[nodiscard]] std::uint64_t resumed_from() const { return resumed_from_; }

@@ -2,6 +2,8 @@
 
 #include "scene/digit_groups.hpp"
 
+#include <carom/simd.hpp>
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -44,7 +46,7 @@ nlohmann::ordered_json to_json(const Summary& s) {
     json["dt"] = s.dt;
     json["threads"] = s.threads;
     json["precision"] = name_of(s.precision);
-    json["simd"] = simd_name;
+    json["simd"] = simd_target();
     json["wall_seconds"] = s.wall_seconds;
     json["ns_per_body_step"] = s.ns_per_body_step;
     json["ns_per_body_step_min"] = s.ns_per_body_step_min;

@@ -40,9 +40,6 @@ struct Summary {
 /// "single" or "double", as in options, scenes and JSON.
 const char* name_of(Precision precision);
 
-/// Which instruction set the engine uses; this version has only one.
-inline constexpr const char* simd_name = "scalar";
-
 /// 16 hex digits.
 std::string hash_text(std::uint64_t hash);
 

@@ -47,7 +47,8 @@ void Cells::choose_levels(std::size_t bodies) {
     std::size_t sampled = 0;
     for (const std::uint32_t count : histogram_) sampled += count;
     // The edge: of the smallest diameters it takes for granted that they are more than nothing.
-    double edge = std::max(first_edge(sampled), 8 * static_cast<double>(*std::max_element(scale_.begin(), scale_.end())));
+    double edge =
+        std::max(first_edge(sampled), 8 * static_cast<double>(*std::max_element(scale_.begin(), scale_.end())));
     for (; bodies > 0; edge *= 4) {
         Level level;
         const auto ticks = [&](std::size_t k) { return ticks_of(edge, k) * (1 + relative_margin) + 2 * tick_margin; };
@@ -118,10 +119,7 @@ void Cells::start_sorting(std::size_t bodies) {
 }
 
 void Cells::place_sorted(Index body, const Ball& ball, std::uint32_t place) {
-    x_[place] = ball.centre[0];
-    y_[place] = ball.centre[1];
-    z_[place] = ball.centre[2];
-    radius_[place] = ball.radius;
+    replace(place, ball);
     body_[place] = body;
     place_[body] = place;
 }
@@ -175,8 +173,26 @@ void Cells::update(Index body, const Ball& ball) {
         place_.push_back(late_bit | add_late(body, ball));
         return;
     }
+    const Ball former = ball_of(body);
+    const std::size_t level = level_of(ball);
+    if (level == level_of(former) && home_cell(levels_[level], ball) == home_cell(levels_[level], former)) {
+        replace(place_[body], ball);
+        return;
+    }
     remove(body);
     place_[body] = late_bit | add_late(body, ball);
+}
+
+/// Puts another ball where one of the same cell was.
+void Cells::replace(std::uint32_t place, const Ball& ball) {
+    if ((place & late_bit) != 0) {
+        late_[place & ~late_bit].ball = ball;
+        return;
+    }
+    x_[place] = ball.centre[0];
+    y_[place] = ball.centre[1];
+    z_[place] = ball.centre[2];
+    radius_[place] = ball.radius;
 }
 
 void Cells::remove(Index body) {

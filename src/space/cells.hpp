@@ -126,6 +126,7 @@ private:
     static std::uint32_t home_cell(const Level& level, const Ball& ball);
     void start_sorting(std::size_t bodies);
     void place_sorted(Index body, const Ball& ball, std::uint32_t place);
+    void replace(std::uint32_t place, const Ball& ball);
     std::uint32_t add_late(Index body, const Ball& ball);
 
     /// Calls f(run of cells) for the cells of `level` in which a registered ball may meet one.
@@ -138,7 +139,7 @@ private:
 
     TickScale scale_{};
     std::vector<Level> levels_;
-    std::vector<std::uint32_t> starts_; ///< per cell, where its balls begin in the sorted arrays; and their end
+    std::vector<std::uint32_t> starts_;     ///< per cell, where its balls begin in the sorted arrays; and their end
     std::vector<std::uint32_t> late_heads_; ///< per cell, of the list of its late balls
     // Sorted, and padding.
     std::vector<Tick> x_;

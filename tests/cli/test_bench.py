@@ -1,5 +1,6 @@
 """What `carom bench` and `carom info` print."""
 
+import os
 import unittest
 
 from carom_cli import CliTest
@@ -22,7 +23,8 @@ class Bench(CliTest):
                 self.assertLessEqual(CONTRACT, set(result))
                 self.assertEqual((result["workload"], result["bodies"], result["steps"]), (workload, 500, 20))
                 self.assertEqual((result["warmup"], result["repeat"]), (10, 2))
-                self.assertEqual((result["threads"], result["simd"]), (1, "scalar"))
+                self.assertEqual(result["threads"], os.cpu_count())
+                self.assertIn(result["simd"], self.json("info")["simd_targets"])
                 self.assertLess(abs(result["energy_drift"]), 1e-10)
                 self.assertLess(result["momentum_drift"], 1e-10)
                 self.assertLess(result["max_overlap"], 1e-8)
@@ -79,10 +81,12 @@ class Bench(CliTest):
 class Info(CliTest):
     def test_json(self):
         facts = self.json("info")
-        self.assertEqual(set(facts), {"version", "compiler", "build", "precision", "resolution", "simd", "threads",
-                                      "cores"})
+        self.assertEqual(set(facts), {"version", "compiler", "build", "precision", "resolution", "simd", "simd_targets",
+                                      "threads", "cores"})
         self.assertEqual(facts["resolution"], {"single": 2.0**-20, "double": 2.0**-40})
-        self.assertEqual((facts["precision"], facts["simd"], facts["threads"]), ("double", "scalar", 1))
+        self.assertEqual((facts["precision"], facts["simd"]), ("double", facts["simd_targets"][0]))
+        self.assertEqual(facts["simd_targets"][-1], "scalar")
+        self.assertEqual(facts["threads"], os.cpu_count())
         self.assertGreaterEqual(facts["cores"], 1)
 
     def test_text(self):
