@@ -47,14 +47,8 @@ double immediate(const Meeting& m) {
     return dot(m.v_a - m.v_b, n) > approach_rounding<Real>(m.v_a, m.v_b, n) ? 0 : no_impact;
 }
 
-/// How far ahead of `start` to look, s: everything that counts up to `until` once added to `start` and rounded. Curved
-/// paths always look to the end of the step: the search for their roots starts from there, and its bits must not
-/// depend on windows.
-template <class Real>
-double horizon_of(const State<Real>& state, double start, double until, bool curved) {
-    const double end = curved ? state.laws.kick_interval : until;
-    return (end - start) + 4 * std::numeric_limits<double>::epsilon() * end;
-}
+/// How far ahead of `start` to look, s: everything that counts up to `end` once added to `start` and rounded.
+double horizon_of(double start, double end) { return (end - start) + 4 * std::numeric_limits<double>::epsilon() * end; }
 
 /// The pair's next impact for one periodic image, s after `start`.
 template <class Real>
@@ -62,7 +56,9 @@ double time_to_image(const State<Real>& state, const Path<Real>& a, const Path<R
                      const Vec3& delta, double start, double until) {
     const double contact = static_cast<double>(a.motion->radius) + static_cast<double>(b.motion->radius);
     const Vec3 pull = a.kind == b.kind && a.kind != Kind::held ? Vec3{} : b.acceleration - a.acceleration;
-    const double horizon = horizon_of(state, start, until, pull != Vec3{});
+    // Along curved paths to the end of the step: the search for their roots starts from there, and its bits must not
+    // depend on windows.
+    const double horizon = horizon_of(start, pull != Vec3{} ? state.laws.kick_interval : until);
     double time = time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon);
     if (time == 0) time = immediate(state, a, b, m, delta, pull);
     const bool two_move = a.kind != Kind::fixed && b.kind != Kind::fixed;
@@ -120,7 +116,7 @@ double predict_free_pair(const State<Real>& state, const Motion<Real>& m_a, cons
         m.delta += m.d_b - m.d_a;
     }
     const double contact = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
-    const double time = time_to_spheres(m.delta, m.v_b - m.v_a, contact, horizon_of(state, start, until, false));
+    const double time = time_to_spheres(m.delta, m.v_b - m.v_a, contact, horizon_of(start, until));
     return start + (time == 0 ? immediate<Real>(m) : time);
 }
 
@@ -152,7 +148,7 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
 }
 
 template <class Real>
-double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, double until) {
+double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const Bodies<Real>& bodies = state.bodies;
     if (rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
     const Motion<Real>& m = bodies.motion[body];
@@ -161,8 +157,9 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, do
     const Vec3 v = velocity_of(m);
     const auto radius = static_cast<double>(m.radius);
     const double gap = state.bounds.gap(face, m.x, {}, radius, state.resolution);
-    const bool curved = state.bounds.shape() == Bounds::Shape::shell && a != Vec3{};
-    const double horizon = horizon_of(state, m.t, until, curved);
+    // To the end of the step, never of a window: a body that touches the face and meets it before the horizon comes to
+    // rest at its own time, and in a later window that would be past.
+    const double horizon = horizon_of(m.t, state.laws.kick_interval);
     double time = no_impact;
     if (state.bounds.shape() == Bounds::Shape::shell) {
         const Vec3 from_centre = Bounds::from_centre(face, m.x, {}, state.resolution);
@@ -197,7 +194,7 @@ bool stays_in_world(const State<Real>& state, Index body, double duration) {
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template double predict_pair(const State<Real>&, Index, Index, double, double);                                    \
     template double predict_paths(const State<Real>&, const Path<Real>&, const Path<Real>&, double, double);           \
-    template double predict_wall(const State<Real>&, Index, std::uint32_t, double);                                    \
+    template double predict_wall(const State<Real>&, Index, std::uint32_t);                                            \
     template bool stays_in_world(const State<Real>&, Index, double);
 CAROM_INSTANTIATE(float)
 CAROM_INSTANTIATE(double)

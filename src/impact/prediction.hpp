@@ -63,9 +63,9 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
 template <class Real>
 double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<Real>& j, double now, double until);
 
-/// When a body meets one wall of the region next, s since the start of the step, or no_impact if not before `until`.
+/// When a body meets one wall of the region next, s since the start of the step, or no_impact if not in this step.
 template <class Real>
-double predict_wall(const State<Real>& state, Index body, std::uint32_t wall, double until);
+double predict_wall(const State<Real>& state, Index body, std::uint32_t wall);
 
 /// m, how far from its place a body and its surface may get along any axis until `until`.
 template <class Real>
@@ -84,7 +84,7 @@ void for_each_wall_event(const State<Real>& state, Index body, double until, F&&
     if (!state.bounds.may_touch(m.x, reach, state.resolution)) return;
     const auto count = static_cast<std::uint32_t>(state.bounds.walls().size());
     for (std::uint32_t wall = 0; wall < count; ++wall) {
-        const double time = predict_wall(state, body, wall, until);
+        const double time = predict_wall(state, body, wall);
         if (time <= until) f(time, Event::wall_bit | wall);
     }
 }
