@@ -175,7 +175,8 @@ void Cells::update(Index body, const Ball& ball) {
     }
     const Ball former = ball_of(body);
     const std::size_t level = level_of(ball);
-    if (level == level_of(former) && home_cell(levels_[level], ball) == home_cell(levels_[level], former)) {
+    const bool is_there = !std::isnan(former.radius);
+    if (is_there && level == level_of(former) && home_cell(levels_[level], ball) == home_cell(levels_[level], former)) {
         replace(place_[body], ball);
         return;
     }

@@ -5,9 +5,10 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "space/simd_search.cpp" // this file again, once for each instruction set
-#include <cstddef>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::core::HWY_NAMESPACE {
@@ -44,7 +45,7 @@ Index* find_meeting(const BallArrays& arrays, const Ball& ball, Index self, cons
     return out;
 }
 
-std::size_t find_tracks(const Track* tracks, const TickScale& scale, const Track& track, const Index* bodies,
+std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Track& track, const Index* bodies,
                         std::size_t count, float from, float to, const TrackMeetings& out) {
     using Floats = hn::CappedTag<float, simd_padding>;
     const Floats floats;
@@ -59,9 +60,8 @@ std::size_t find_tracks(const Track* tracks, const TickScale& scale, const Track
         const auto in_list = hn::FirstN(indices, count - k);
         const auto list = hn::IfThenElseZero(in_list, hn::LoadU(indices, bodies + k));
         const auto first_word = hn::BitCast(integers, hn::ShiftLeft<3>(list));
-        const auto word = [&](int number) HWY_ATTR {
-            return hn::GatherIndex(floats, words_of_tracks + number, first_word);
-        };
+        const auto word = [&](int number)
+                              HWY_ATTR { return hn::GatherIndex(floats, words_of_tracks + number, first_word); };
         const auto speed_to = [&](std::size_t axis) HWY_ATTR {
             return hn::Sub(word(4 + static_cast<int>(axis)), hn::Set(floats, track.speed[axis]));
         };
@@ -70,10 +70,10 @@ std::size_t find_tracks(const Track* tracks, const TickScale& scale, const Track
         const auto w2 = speed_to(2);
         const auto start = hn::Set(floats, from);
         const auto place = [&](std::size_t axis, auto w) HWY_ATTR {
-            const auto ticks = hn::Sub(hn::BitCast(indices, word(static_cast<int>(axis))),
-                                       hn::Set(indices, track.start[axis]));
-            const auto metres = hn::Mul(hn::ConvertTo(floats, hn::BitCast(integers, ticks)),
-                                        hn::Set(floats, scale[axis]));
+            const auto ticks =
+                hn::Sub(hn::BitCast(indices, word(static_cast<int>(axis))), hn::Set(indices, track.start[axis]));
+            const auto metres =
+                hn::Mul(hn::ConvertTo(floats, hn::BitCast(integers, ticks)), hn::Set(floats, scale.metres[axis]));
             return hn::Add(metres, hn::Mul(w, start));
         };
         const auto p0 = place(0, w0);
@@ -82,18 +82,17 @@ std::size_t find_tracks(const Track* tracks, const TickScale& scale, const Track
         const auto zero = hn::Zero(floats);
         const auto reach = hn::Add(word(3), hn::Set(floats, track.reach));
         const auto reach_squared = hn::Mul(reach, reach);
-        const auto dot = [&](auto a0, auto a1, auto a2, auto b0, auto b1, auto b2) HWY_ATTR {
-            return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2));
-        };
+        const auto dot = [&](auto a0, auto a1, auto a2, auto b0, auto b1, auto b2)
+                             HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2)); };
         const auto outside = hn::Sub(dot(p0, p1, p2, p0, p1, p2), reach_squared);
         const auto closing = hn::Neg(dot(p0, p1, p2, w0, w1, w2));
         const auto speed = dot(w0, w1, w2, w0, w1, w2);
         const auto closing_squared = hn::Mul(closing, closing);
         const auto bend = hn::Add(word(7), hn::Set(floats, track.bend));
         const auto is_inside = hn::Le(outside, zero);
-        const auto parts = hn::And(
-            hn::And(hn::Lt(closing, zero), hn::Eq(bend, zero)),
-            hn::Gt(closing_squared, hn::Mul(hn::Mul(hn::Set(floats, parting), speed), reach_squared)));
+        const auto tolerance = hn::Set(floats, scale.tolerance * scale.tolerance);
+        const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Eq(bend, zero)),
+                                   hn::Gt(closing_squared, hn::Mul(speed, tolerance)));
         const auto root = hn::Sub(closing_squared, hn::Mul(speed, outside));
         const auto passes = hn::Or(hn::Le(closing, zero), hn::Lt(root, zero));
         const auto raw = hn::Add(start, hn::Div(outside, hn::Add(closing, hn::Sqrt(root))));
@@ -113,9 +112,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-#include <atomic>
-#include <cstdlib>
-#include <string>
+#    include <atomic>
+#    include <cstdlib>
+#    include <string>
 
 namespace carom {
 
@@ -135,7 +134,7 @@ Index* find_meeting_plainly(const BallArrays& arrays, const Ball& ball, Index se
     return out;
 }
 
-std::size_t find_tracks_plainly(const Track* tracks, const TickScale& scale, const Track& track, const Index* bodies,
+std::size_t find_tracks_plainly(const Track* tracks, const TrackScale& scale, const Track& track, const Index* bodies,
                                 std::size_t count, float from, float to, const TrackMeetings& out) {
     std::size_t found = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -155,24 +154,24 @@ struct Target {
 };
 
 constexpr Target targets[] = {
-#if HWY_TARGETS & HWY_AVX3
+#    if HWY_TARGETS & HWY_AVX3
     {HWY_AVX3, "avx512", &N_AVX3::find_meeting, &N_AVX3::find_tracks},
-#endif
-#if HWY_TARGETS & HWY_AVX2
+#    endif
+#    if HWY_TARGETS & HWY_AVX2
     {HWY_AVX2, "avx2", &N_AVX2::find_meeting, &N_AVX2::find_tracks},
-#endif
-#if HWY_TARGETS & HWY_SSE4
+#    endif
+#    if HWY_TARGETS & HWY_SSE4
     {HWY_SSE4, "sse4", &N_SSE4::find_meeting, &N_SSE4::find_tracks},
-#endif
-#if HWY_TARGETS & HWY_SSSE3
+#    endif
+#    if HWY_TARGETS & HWY_SSSE3
     {HWY_SSSE3, "ssse3", &N_SSSE3::find_meeting, &N_SSSE3::find_tracks},
-#endif
-#if HWY_TARGETS & HWY_SVE
+#    endif
+#    if HWY_TARGETS & HWY_SVE
     {HWY_SVE, "sve", &N_SVE::find_meeting, &N_SVE::find_tracks},
-#endif
-#if HWY_TARGETS & HWY_NEON
+#    endif
+#    if HWY_TARGETS & HWY_NEON
     {HWY_NEON, "neon", &N_NEON::find_meeting, &N_NEON::find_tracks},
-#endif
+#    endif
     {0, "scalar", &find_meeting_plainly, &find_tracks_plainly},
 };
 

@@ -35,7 +35,7 @@ struct TrackMeetings {
 
 /// first_meeting() of a track with those of `count` bodies: writes whom it may meet between `from` and `to`, in order,
 /// and returns how many. The list may be read up to simd_padding elements behind its end.
-using TrackSearch = std::size_t (*)(const Track* tracks, const TickScale& scale, const Track& track,
+using TrackSearch = std::size_t (*)(const Track* tracks, const TrackScale& scale, const Track& track,
                                     const Index* bodies, std::size_t count, float from, float to,
                                     const TrackMeetings& out);
 

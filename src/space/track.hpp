@@ -16,20 +16,23 @@ struct alignas(32) Track {
     std::array<Tick, 3> start{};  ///< where the body would have been at the start of the epoch
     float reach = 0;              ///< m, its radius, and what keeps the test conservative; infinite: always may meet
     std::array<float, 3> speed{}; ///< m/s
-    float bend = 0;               ///< more than 0: not in free flight, and up to `reach` away from its track
+    float bend = 0;               ///< more than 0: not in free flight, and anywhere within `reach` of its track
 };
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
-/// What has met and parts by more than this part of the speed is surely parting.
-inline constexpr float parting = 1e-6F;
+/// What tracks are measured in, and how wrong they may be.
+struct TrackScale {
+    TickScale metres{};  ///< per tick
+    float tolerance = 0; ///< m, more than the errors of two tracks' places
+};
 
 /// A time in [from, to] (s) before which two bodies do not meet; `never` if they do not meet before `to`.
-inline float first_meeting(const Track& a, const Track& b, float from, float to, const TickScale& scale) {
+inline float first_meeting(const Track& a, const Track& b, float from, float to, const TrackScale& scale) {
     const std::array<float, 3> w{b.speed[0] - a.speed[0], b.speed[1] - a.speed[1], b.speed[2] - a.speed[2]};
-    const std::array<float, 3> p{tick_distance(a.start[0], b.start[0], scale[0]) + w[0] * from,
-                                 tick_distance(a.start[1], b.start[1], scale[1]) + w[1] * from,
-                                 tick_distance(a.start[2], b.start[2], scale[2]) + w[2] * from};
+    const std::array<float, 3> p{tick_distance(a.start[0], b.start[0], scale.metres[0]) + w[0] * from,
+                                 tick_distance(a.start[1], b.start[1], scale.metres[1]) + w[1] * from,
+                                 tick_distance(a.start[2], b.start[2], scale.metres[2]) + w[2] * from};
     const float reach = a.reach + b.reach;
     const float outside = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - reach * reach;
     const float closing = -(p[0] * w[0] + p[1] * w[1] + p[2] * w[2]);
@@ -37,7 +40,7 @@ inline float first_meeting(const Track& a, const Track& b, float from, float to,
     if (outside <= 0) {
         // What has met and parts for good does not meet again.
         const bool parts =
-            closing < 0 && a.bend + b.bend == 0 && closing * closing > parting * speed * (reach * reach);
+            closing < 0 && a.bend + b.bend == 0 && closing * closing > speed * (scale.tolerance * scale.tolerance);
         return parts ? never : from;
     }
     const float root = closing * closing - speed * outside;

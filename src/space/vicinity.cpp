@@ -179,9 +179,10 @@ void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windo
     typical_room_ = way * windows;
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
-    for (std::size_t k = 0; k < 3; ++k) scale_[k] = static_cast<float>(ticks_.metres_per_tick()[k]);
+    for (std::size_t k = 0; k < 3; ++k) scale_.metres[k] = static_cast<float>(ticks_.metres_per_tick()[k]);
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
+    scale_.tolerance = static_cast<float>(4 * reach_margin_);
     room_.resize(bodies);
     tracks_.resize(bodies);
     for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t, std::size_t k) {
@@ -410,6 +411,7 @@ Track Vicinity<Real>::track_of(const Flown<Real>& path, double room) const {
     if (!suits_tracks(length(v), reach)) {
         track.start = ticks_.of(m.x);
         track.reach = std::numeric_limits<float>::infinity();
+        track.bend = 1;
         return track;
     }
     track.start = ticks_.of(m.x, is_free ? v * -now + g * (-0.5 * now * now) : Vec3{});
@@ -422,7 +424,10 @@ Track Vicinity<Real>::track_of(const Flown<Real>& path, double room) const {
 template <class Real>
 void Vicinity<Real>::take_track(Index body, float room, float now) {
     const Kind kind = state_.bodies.kind[body];
-    tracks_[body] = track_of(flown(state_, body), std::max(0.0F, room));
+    const Flown<Real> path = flown(state_, body);
+    // The room of a held body is what it has beside its way in this step.
+    const double way = kind == Kind::held ? held_way(path.motion, path.acceleration) : 0;
+    tracks_[body] = track_of(path, static_cast<double>(std::max(0.0F, room)) + way);
     if (kind == Kind::fixed) {
         room_[body] = std::numeric_limits<float>::infinity();
     } else if (std::isinf(tracks_[body].reach)) {
@@ -452,8 +457,7 @@ Ball Vicinity<Real>::take_cover(Index body, float now) {
     take_track(body, static_cast<float>(room), now);
     if (needed > room || room_[body] < 0) {
         room_[body] = -1;
-        tracks_[body].reach = std::numeric_limits<float>::infinity();
-        tracks_[body].speed = {};
+        tracks_[body] = {.start = ticks_.of(m.x), .reach = std::numeric_limits<float>::infinity(), .bend = 1};
         return ticks_.ball(m.x, {}, radius + reach_margin_);
     }
     if (is_held) room_[body] -= static_cast<float>(needed);

@@ -169,7 +169,7 @@ private:
     // What lasts until the lists are built anew.
     bool lists_valid_ = false;
     Ticks ticks_;
-    TickScale scale_{};
+    TrackScale scale_{};
     Neighbours neighbours_;
     double typical_room_ = 0; ///< m
     double typical_size_ = 0; ///< m, of a cover
