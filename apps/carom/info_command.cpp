@@ -2,7 +2,7 @@
 #include "options.hpp"
 #include "scene/summary.hpp"
 
-#include <carom/simd.hpp>
+#include <carom/executor.hpp>
 #include <carom/world.hpp>
 
 #include <CLI/CLI.hpp>

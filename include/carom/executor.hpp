@@ -1,9 +1,11 @@
 /// \file
-/// Where the work of a step runs: on carom's own threads, or in the job system of a game.
+/// What the work of a step runs on: carom's own threads or the job system of a game, and which vector instructions.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 namespace carom {
 
@@ -32,5 +34,20 @@ std::shared_ptr<Executor> make_serial_executor();
 std::shared_ptr<Executor> make_default_executor(unsigned threads = 0);
 /// Threads of its own, from the standard library, kept until the executor goes. `threads` = 0: one for each core.
 std::shared_ptr<Executor> make_thread_executor(unsigned threads = 0);
+
+/// \name Instruction sets of the vectorised parts; no result depends on them
+/// @{
+
+/// Names of the instruction sets that this machine has and carom was built for, the best first: some of "avx512",
+/// "avx2", "sse4", "ssse3", "neon", "sve", and always "scalar".
+std::vector<std::string_view> simd_targets();
+
+/// The one in use: the best, unless the environment variable CAROM_SIMD names another when it is first needed.
+std::string_view simd_target();
+
+/// Uses another from now on, in all worlds. Not to be called while a world steps. Throws Error{not_available} naming
+/// those there are.
+void use_simd_target(std::string_view name);
+/// @}
 
 } // namespace carom

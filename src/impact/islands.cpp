@@ -291,8 +291,7 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
     const Turned<Real>& turned_a = turned_of(a);
     const Turned<Real>& turned_b = turned_of(b);
     if (turned_a.earlier == nowhere && turned_b.earlier == nowhere &&
-        !vicinity_.may_meet(turned_a.track, turned_b.track,
-                            std::max(turned_a.path.motion.t, turned_b.path.motion.t))) {
+        !vicinity_.may_meet(turned_a.track, turned_b.track, std::max(turned_a.path.motion.t, turned_b.path.motion.t))) {
         return false;
     }
     const auto for_each_leg = [this](const Member& member, auto&& f) {

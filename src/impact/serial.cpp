@@ -80,8 +80,9 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
         if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
     }
     SerialLoops loops;
-    neighbours_.build(loops, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
-                      [&](Index i) { return bodies.kind[i] != Kind::fixed; });
+    neighbours_.build(
+        loops, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
+        [&](Index i) { return bodies.kind[i] != Kind::fixed; });
 }
 
 template <class Real>

@@ -2,7 +2,7 @@
 
 #include "scene/digit_groups.hpp"
 
-#include <carom/simd.hpp>
+#include <carom/executor.hpp>
 
 #include <fmt/format.h>
 

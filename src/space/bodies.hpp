@@ -105,7 +105,7 @@ struct Bodies {
     std::vector<Kind> kind; ///< on its own: predictions read it of every neighbour, and it stays in the cache
     std::vector<Trait<Real>> trait;
     std::vector<std::uint64_t> user_data; ///< empty as long as all are 0
-    std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
+    std::vector<Int3> previous;           ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot

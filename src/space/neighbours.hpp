@@ -9,9 +9,9 @@
 
 namespace carom::core {
 
-/// A body's *cover* is a ball that it stays in for some time. As long as it does, whatever impacts do to it, all that it
-/// may meet are its neighbours: a list that lies together in memory, where a search through cells would touch dozens of
-/// places. A body that leaves its cover gets a new one, and new links.
+/// A body's *cover* is a ball that it stays in for some time. As long as it does, whatever impacts do to it, all that
+/// it may meet are its neighbours: a list that lies together in memory, where a search through cells would touch dozens
+/// of places. A body that leaves its cover gets a new one, and new links.
 class Neighbours {
 public:
     /// `cover_at(i)` is the cover of body i. Those of which `looks_up(i)` is false will never be asked for their

@@ -1,7 +1,7 @@
 #include "space/simd_search.hpp"
 
 #include <carom/error.hpp>
-#include <carom/simd.hpp>
+#include <carom/executor.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "space/simd_search.cpp" // this file again, once for each instruction set
@@ -153,7 +153,7 @@ struct Target {
     TrackSearch tracks = nullptr;
 };
 
-constexpr Target targets[] = {
+constexpr auto targets = std::to_array<Target>({
 #    if HWY_TARGETS & HWY_AVX3
     {HWY_AVX3, "avx512", &N_AVX3::find_meeting, &N_AVX3::find_tracks},
 #    endif
@@ -173,7 +173,7 @@ constexpr Target targets[] = {
     {HWY_NEON, "neon", &N_NEON::find_meeting, &N_NEON::find_tracks},
 #    endif
     {0, "scalar", &find_meeting_plainly, &find_tracks_plainly},
-};
+});
 
 bool is_supported(const Target& target) {
     return target.bits == 0 || (static_cast<std::int64_t>(HWY_SUPPORTED_TARGETS) & target.bits) != 0;

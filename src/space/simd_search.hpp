@@ -39,7 +39,7 @@ using TrackSearch = std::size_t (*)(const Track* tracks, const TrackScale& scale
                                     const Index* bodies, std::size_t count, float from, float to,
                                     const TrackMeetings& out);
 
-/// The ones for the instruction set in use: see carom/simd.hpp.
+/// The ones for the instruction set in use: see carom/executor.hpp.
 BallSearch ball_search();
 TrackSearch track_search();
 

@@ -114,7 +114,8 @@ inline void include_apex(double speed, double acceleration, double t0, double t1
     high = std::max(high, d);
 }
 
-/// A ball that holds a motion over [from, to] (s since the start of the step, not before motion.t), and `slack` (m) more.
+/// A ball that holds a motion over [from, to] (s since the start of the step, not before motion.t), and `slack` (m)
+/// more.
 template <class Real>
 Ball swept_ball(const Ticks& ticks, const Motion<Real>& motion, const Vec3& acceleration, double from, double to,
                 double slack = 0) {

@@ -49,7 +49,7 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
     if (continues_epoch(window)) {
         ++window_;
         window_start_ = relative(window.from);
-        window_end_ = static_cast<float>(exact_relative(window.to) + slack_ * length_);
+        window_end_ = static_cast<float>(exact_relative(window.to) + slack * length_);
         neighbours_.drop_extensions();
         if (window.from == 0) charge_held();
         renew_disturbed();
@@ -105,7 +105,7 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
     // A path bends from the body's own time on, which may be the start of the step.
     sag_ = 0.5 * length(state_.laws.gravity - frame_) * window.step_end * window.step_end;
     window_start_ = 0;
-    window_end_ = static_cast<float>(length_ * (1 + slack_));
+    window_end_ = static_cast<float>(length_ * (1 + slack));
 }
 
 /// How many windows the lists had better last. Building costs about `fixed + a pair` a body each time, and every body
@@ -369,7 +369,7 @@ void Vicinity<Real>::settle(std::span<const Turned> turned) {
     for_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
         constexpr std::size_t ahead = 4;
         const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)].body; };
-        const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack_ * length_);
+        const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack * length_);
         for (std::size_t k = begin; k < end; ++k) {
             prefetch(soon(k + 3 * ahead));
             prefetch_list(soon(k + 2 * ahead));
@@ -450,7 +450,7 @@ Ball Vicinity<Real>::take_cover(Index body, float now) {
     const bool is_held = state_.bodies.kind[body] == Kind::held;
     const double speed = length(velocity_of(m) - g * exact_relative(m.t));
     const double needed =
-        is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack_) + sag_;
+        is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
     const double room = std::clamp(spare * speed * horizon_, typical_room_, most_rooms * typical_room_);
@@ -481,7 +481,7 @@ Vec3 Vicinity<Real>::place_at(const Motion<Real>& motion, float now) const {
 /// The first window, from `earliest` on, that has not ended at a time (s since the epoch's start).
 template <class Real>
 std::uint32_t Vicinity<Real>::window_of(double time, std::uint32_t earliest) const {
-    const double window = time / length_ - slack_;
+    const double window = time / length_ - slack;
     if (window >= windows_) return windows_;
     return std::max(earliest, static_cast<std::uint32_t>(std::max(window, 0.0)));
 }
@@ -509,7 +509,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
     const auto speed = static_cast<double>(speed_of(tracks_[body]));
     if (room < 0) {
         calendar_.add_exit(part, earliest, body);
-    } else if (speed * windows_ * length_ * (1 + slack_) > room) {
+    } else if (speed * windows_ * length_ * (1 + slack) > room) {
         const std::uint32_t window = window_of(room / speed, earliest);
         if (window < windows_) calendar_.add_exit(part, window, body);
     }

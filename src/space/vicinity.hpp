@@ -121,7 +121,7 @@ private:
     /// s since the epoch's start, of a time since the step's start.
     [[nodiscard]] double exact_relative(double time) const { return time - epoch_; }
     [[nodiscard]] float relative(double time) const { return static_cast<float>(exact_relative(time)); }
-    [[nodiscard]] float epoch_end() const { return static_cast<float>((windows_ + slack_) * length_); }
+    [[nodiscard]] float epoch_end() const { return static_cast<float>((windows_ + slack) * length_); }
 
     [[nodiscard]] bool continues_epoch(const Window& window) const;
     void start_epoch(const Census& census, const Window& window);
@@ -160,7 +160,7 @@ private:
     void for_each_piece(const Flown<Real>& path, F&& f) const;
 
     /// Of a window: more than the roundings of single precision put a time wrong.
-    static constexpr double slack_ = 1e-3;
+    static constexpr double slack = 1e-3;
 
     State<Real>& state_;
     Executor* executor_ = nullptr;

@@ -288,8 +288,8 @@ template <class Real>
 bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const std::size_t expected_previous = b.interpolating ? size() : 0;
-    return b.kind.size() == size() && b.trait.size() == size() && (b.user_data.empty() || b.user_data.size() == size()) &&
-           b.previous.size() == expected_previous;
+    return b.kind.size() == size() && b.trait.size() == size() &&
+           (b.user_data.empty() || b.user_data.size() == size()) && b.previous.size() == expected_previous;
 }
 
 template <class Real>

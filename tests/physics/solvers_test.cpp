@@ -79,8 +79,7 @@ World random_world(unsigned seed) {
     Random random(seed);
     WorldOptions options;
     options.region = random_region(random);
-    options.precision =
-        random.chance(2) ? carom::Precision::single_precision : carom::Precision::double_precision;
+    options.precision = random.chance(2) ? carom::Precision::single_precision : carom::Precision::double_precision;
     if (random.chance(2)) options.gravity = random.vector(10);
     if (random.chance(4)) options.drag = {.linear = 0.1, .quadratic = 0.05};
     if (random.chance(3)) options.collapse_time = 0.05;
@@ -88,7 +87,9 @@ World random_world(unsigned seed) {
     const double speed = random.chance(3) ? 0.5 : 20;
     const double e = random.chance(3) ? 1 : random.within(0, 1);
     for (int k = 0; k < 64; ++k) {
-        const Vec3 lattice{2.8 * (k % 4) - 4.2, 2.8 * ((k / 4) % 4) - 4.2, 2.8 * (k / 16) - 4.2};
+        const int row = k / 4 % 4;
+        const int layer = k / 16;
+        const Vec3 lattice{2.8 * (k % 4) - 4.2, 2.8 * row - 4.2, 2.8 * layer - 4.2};
         carom::Body body{.position = lattice + random.vector(0.3),
                          .velocity = random.vector(speed),
                          .mass = random.within(0.5, 3),

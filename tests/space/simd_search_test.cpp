@@ -1,0 +1,131 @@
+// The vectorised searches find what the plain ones find, for every instruction set and every length of a list.
+
+#include "space/simd_search.hpp"
+
+#include <carom/error.hpp>
+#include <carom/executor.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using carom::core::Ball;
+using carom::core::BallArrays;
+using carom::core::Index;
+using carom::core::simd_padding;
+using carom::core::Tick;
+using carom::core::Track;
+using carom::core::TrackScale;
+
+constexpr std::size_t count = 300;
+
+/// Puts the instruction set back that was in use.
+class KeepsTarget {
+public:
+    ~KeepsTarget() { carom::use_simd_target(name_); }
+
+private:
+    std::string name_{carom::simd_target()};
+};
+
+class SimdSearch : public testing::Test {
+protected:
+    // NOLINTNEXTLINE(cert-msc51-cpp): fixed
+    std::mt19937 random{11};
+
+    float within(double low, double high) {
+        return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
+    }
+    /// Near the seam of the torus.
+    Tick tick() { return static_cast<Tick>(random() % 2000) - 1000; }
+};
+
+TEST_F(SimdSearch, BallsAreFoundAlike) {
+    const KeepsTarget keep;
+    std::vector<Tick> x(count + simd_padding);
+    std::vector<Tick> y(count + simd_padding);
+    std::vector<Tick> z(count + simd_padding);
+    std::vector<float> radius(count + simd_padding);
+    std::vector<Index> body(count + simd_padding);
+    for (std::size_t k = 0; k < count; ++k) {
+        x[k] = tick();
+        y[k] = tick();
+        z[k] = tick();
+        radius[k] = k % 17 == 0 ? std::numeric_limits<float>::quiet_NaN() : within(0, 0.4);
+        body[k] = static_cast<Index>(1000 - k);
+    }
+    const BallArrays arrays{x.data(), y.data(), z.data(), radius.data(), body.data(), {1e-3F, 1e-3F, 2e-3F}};
+    std::size_t found = 0;
+    for (std::uint32_t from = 0; from < 70; ++from) {
+        const std::vector<carom::core::Run> runs{
+            {from, from + from % 40}, {from + 50, from + 50}, {150, 150 + 2 * from}};
+        const Ball ball{{tick(), tick(), tick()}, within(0, 0.5)};
+        carom::use_simd_target("scalar");
+        std::vector<Index> expected(2 * count + simd_padding);
+        expected.resize(static_cast<std::size_t>(
+            carom::core::ball_search()(arrays, ball, body[from], runs.data(), runs.size(), expected.data()) -
+            expected.data()));
+        found += expected.size();
+        for (const std::string_view target : carom::simd_targets()) {
+            carom::use_simd_target(target);
+            std::vector<Index> list(2 * count + simd_padding);
+            list.resize(static_cast<std::size_t>(
+                carom::core::ball_search()(arrays, ball, body[from], runs.data(), runs.size(), list.data()) -
+                list.data()));
+            EXPECT_EQ(list, expected) << target << ", from " << from;
+        }
+    }
+    EXPECT_GT(found, 100U);
+}
+
+TEST_F(SimdSearch, TracksAreFoundAlike) {
+    const KeepsTarget keep;
+    std::vector<Track> tracks(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        tracks[k] = {.start = {tick(), tick(), tick()},
+                     .reach = k % 19 == 0 ? std::numeric_limits<float>::infinity() : within(0, 0.3),
+                     .speed = {within(-2, 2), within(-2, 2), within(-2, 2)},
+                     .bend = k % 5 == 0 ? 1.0F : 0.0F};
+    }
+    tracks[7].speed = {1e30F, 1e30F, -1e30F};
+    const TrackScale scale{{1e-3F, 1e-3F, 2e-3F}, 1e-3F};
+    std::size_t found = 0;
+    for (std::size_t length = 0; length < 100; ++length) {
+        std::vector<Index> list(length + simd_padding);
+        for (Index& other : list) other = static_cast<Index>(random() % count);
+        const auto search = [&](std::string_view target, std::vector<Index>& bodies, std::vector<float>& times) {
+            carom::use_simd_target(target);
+            bodies.assign(length + simd_padding, 0);
+            times.assign(length + simd_padding, 0);
+            const std::size_t hits = carom::core::track_search()(tracks.data(), scale, tracks[length], list.data(),
+                                                                 length, 0.25F, 1.5F, {bodies.data(), times.data()});
+            bodies.resize(hits);
+            times.resize(hits);
+        };
+        std::vector<Index> expected;
+        std::vector<float> expected_times;
+        search("scalar", expected, expected_times);
+        found += expected.size();
+        for (const std::string_view target : carom::simd_targets()) {
+            std::vector<Index> bodies;
+            std::vector<float> times;
+            search(target, bodies, times);
+            EXPECT_EQ(bodies, expected) << target << ", " << length << " bodies";
+            EXPECT_EQ(times, expected_times) << target << ", " << length << " bodies";
+        }
+    }
+    EXPECT_GT(found, 100U);
+}
+
+TEST_F(SimdSearch, AnUnknownInstructionSetIsRefused) {
+    const std::string before(carom::simd_target());
+    EXPECT_THROW(carom::use_simd_target("mmx"), carom::Error);
+    EXPECT_EQ(carom::simd_target(), before);
+}
+
+} // namespace
