@@ -125,7 +125,7 @@ private:
     std::vector<Index> roster_;
     std::vector<Event> island_events_;
     std::vector<std::uint32_t> pending_; ///< islands to run
-    std::vector<Vicinity<Real>::Turned> turned_;
+    std::vector<TurnedBody> turned_;
 
     /// The place of an occurrence in the order of all.
     struct Place {

@@ -347,7 +347,7 @@ Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
 }
 
 template <class Real>
-void Vicinity<Real>::settle(std::span<const Turned> turned) {
+void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
     // Of late, more or less.
     constexpr double weight = 0.25;
     const auto bodies = static_cast<double>(std::max<std::size_t>(state_.bodies.size(), 1));

@@ -30,6 +30,12 @@ Flown<Real> flown(const State<Real>& state, Index i) {
     return {state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i]};
 }
 
+/// A body that ends a window on a new path, and what is left of its room (m).
+struct TurnedBody {
+    Index body = no_index;
+    float room = 0;
+};
+
 /// Lists of neighbours, tracks, and a calendar of when bodies may meet. All hold for an *epoch* of several windows, so
 /// that a body which meets nobody in a window costs nothing there.
 ///
@@ -109,13 +115,8 @@ public:
     /// Covers a body on one more path, until the window's end.
     void cover_along(Index body, const Flown<Real>& path);
 
-    /// A body that ends the window on a new path, and what is left of its room.
-    struct Turned {
-        Index body = no_index;
-        float room = 0;
-    };
     /// End of a window.
-    void settle(std::span<const Turned> turned);
+    void settle(std::span<const TurnedBody> turned);
 
 private:
     /// s since the epoch's start, of a time since the step's start.
