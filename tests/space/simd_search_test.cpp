@@ -35,14 +35,16 @@ private:
 
 class SimdSearch : public testing::Test {
 protected:
-    // NOLINTNEXTLINE(cert-msc51-cpp): fixed
-    std::mt19937 random{11};
-
     float within(double low, double high) {
-        return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
+        return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random_));
     }
     /// Near the seam of the torus.
-    Tick tick() { return static_cast<Tick>(random() % 2000) - 1000; }
+    Tick tick() { return below(2000) - 1000; }
+    std::uint32_t below(std::uint32_t end) { return static_cast<std::uint32_t>(random_()) % end; }
+
+private:
+    // NOLINTNEXTLINE(cert-msc51-cpp): fixed
+    std::mt19937 random_{11};
 };
 
 TEST_F(SimdSearch, BallsAreFoundAlike) {
@@ -97,7 +99,7 @@ TEST_F(SimdSearch, TracksAreFoundAlike) {
     std::size_t found = 0;
     for (std::size_t length = 0; length < 100; ++length) {
         std::vector<Index> list(length + simd_padding);
-        for (Index& other : list) other = static_cast<Index>(random() % count);
+        for (Index& other : list) other = below(count);
         const auto search = [&](std::string_view target, std::vector<Index>& bodies, std::vector<float>& times) {
             carom::use_simd_target(target);
             bodies.assign(length + simd_padding, 0);
