@@ -1,5 +1,7 @@
 #include "scene/summary.hpp"
 
+#include <carom/executor.hpp>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -57,7 +59,7 @@ TEST(Summary, FiguresStandUnderTheirKeys) {
     EXPECT_EQ(json["max_overlap"], 1e-12);
     EXPECT_EQ(json["bodies_outside"], 1);
     EXPECT_EQ(json["precision"], "single");
-    EXPECT_EQ(json["simd"], "scalar");
+    EXPECT_EQ(json["simd"], std::string(carom::simd_target()));
     EXPECT_EQ(json["hash"], "0000000000000abc");
     EXPECT_EQ(nlohmann::json::parse(scene::file_text(json))["dt"].get<double>(), 0.1);
 }
