@@ -6,15 +6,6 @@ namespace carom::core {
 
 namespace {
 
-/// Everything in the caller's thread: that is what makes it the reference.
-class SerialLoops : public Executor {
-public:
-    [[nodiscard]] unsigned threads() const noexcept override { return 1; }
-    void run(std::size_t parts, Task task, void* context) override {
-        for (std::size_t part = 0; part < parts; ++part) task(context, part);
-    }
-};
-
 /// The length (m) that ticks are made for: a body and its way through the window.
 double tick_scale(const Census& census, double duration, const Resolution& resolution) {
     return std::max(2 * (census.mean_radius + census.typical_speed * duration), resolution.metres);
@@ -79,9 +70,8 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
         covers_[i] = swept_ball(ticks_, m, a, from, to, slack_);
         if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
     }
-    SerialLoops loops;
     neighbours_.build(
-        loops, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
+        *loops_, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
         [&](Index i) { return bodies.kind[i] != Kind::fixed; });
 }
 

@@ -8,6 +8,7 @@
 #include "space/neighbours.hpp"
 #include "space/ticks.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace carom::core {
@@ -55,6 +56,7 @@ private:
     void predict(Index a, Index b, double now, double to);
 
     State<Real>& state_;
+    std::shared_ptr<Executor> loops_ = make_serial_executor(); ///< in the caller's thread: that makes it the reference
     Ticks ticks_;
     Neighbours neighbours_;
     double slack_ = 0; ///< m, room in the covers for what impacts do
