@@ -67,14 +67,6 @@ double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<R
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall);
 
-/// m, how far from its place a body and its surface may get along any axis until `until`.
-template <class Real>
-double reach_of(const Motion<Real>& m, const Vec3& acceleration, double until) {
-    const auto sum = [](const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-    const double duration = until - m.t;
-    return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
-}
-
 /// Calls f(time, wall) for every wall that a body meets until `until`.
 template <class Real, class F>
 void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {

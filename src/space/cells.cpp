@@ -1,5 +1,7 @@
 #include "space/cells.hpp"
 
+#include <cstring>
+
 namespace carom::core {
 
 namespace {
@@ -54,6 +56,7 @@ void Cells::choose_levels(std::size_t bodies) {
         const auto ticks = [&](std::size_t k) { return ticks_of(edge, k) * (1 + relative_margin) + 2 * tick_margin; };
         if (!(std::max({ticks(0), ticks(1), ticks(2)}) < whole_turn / 4)) break;
         for (std::size_t k = 0; k < 3; ++k) level.edge[k] = static_cast<Tick>(ticks(k));
+        level.largest_radius = largest_radius(level);
         levels_.push_back(level);
     }
     levels_.push_back({.edge = {0xffffffffU, 0xffffffffU, 0xffffffffU}});
@@ -88,17 +91,11 @@ void Cells::lay_out_level(Level& level, const Axes& axes) {
     }
 }
 
-bool Cells::fits(const Level& level, const Ball& ball) const {
-    if (level.is_last()) return true;
-    const double diameter = 2 * static_cast<double>(ball.radius) * (1 + relative_margin);
-    const auto fits_on = [&](std::size_t k) { return ticks_of(diameter, k) + tick_margin <= level.edge[k]; };
-    return fits_on(0) && fits_on(1) && fits_on(2);
-}
-
-std::size_t Cells::level_of(const Ball& ball) const {
-    std::size_t level = 0;
-    while (!fits(levels_[level], ball)) ++level;
-    return level;
+float Cells::largest_radius(const Level& level) const {
+    const auto longest = [&](std::size_t k) {
+        return (level.edge[k] - tick_margin) * static_cast<double>(scale_[k]) / (1 + 2 * relative_margin);
+    };
+    return static_cast<float>(std::min({longest(0), longest(1), longest(2)}) / 2);
 }
 
 std::uint32_t Cells::home_cell(const Level& level, const Ball& ball) {
@@ -110,7 +107,6 @@ void Cells::start_sorting(std::size_t bodies) {
     const std::size_t cell_count = levels_.back().first_cell + 1;
     starts_.assign(cell_count + 1, 0);
     late_heads_.assign(cell_count, nothing);
-    place_.resize(bodies);
     body_.resize(bodies + simd_padding);
     x_.resize(bodies + simd_padding);
     y_.resize(bodies + simd_padding);
@@ -146,26 +142,135 @@ Cells::Span Cells::span_of(const Level& level, std::size_t axis, Tick centre, st
     return {first, std::min(last - first + 1, cells), cells};
 }
 
-void Cells::find_neighbours(std::uint32_t k, BallSearch search, std::vector<Run>& runs, std::vector<Index>& found,
+/// A cell and its neighbours.
+Cells::Span Cells::span_around(const Level& level, std::size_t axis, Tick centre) {
+    const std::uint32_t cells = level.cells[axis];
+    if (cells == 1) return {0, 1, 1};
+    const std::uint32_t c = level.coordinate(axis, centre);
+    return {c == 0 ? cells - 1 : c - 1, 3, cells};
+}
+
+void Cells::find_neighbours(std::uint32_t k, NeighbourSearch& search, std::vector<Index>& found,
                             std::size_t& used) const {
+    if (k < search.cell.from || k >= search.cell.to) pack_around(k, search);
     const Ball ball = sorted_ball(k);
+    PackedBalls& packed = search.packed;
+    std::vector<Run>& runs = search.runs;
+    std::size_t balls = packed.size;
     runs.clear();
-    std::size_t balls = 0;
-    const Reach reach = reach_of(ball);
-    for (const Level& level : levels_) {
-        if (level.population == 0) continue;
-        for_each_row(level, ball, reach, [&](const Run& row) {
-            const Run run{starts_[row.from], starts_[row.to]};
-            if (run.from == run.to) return;
-            balls += run.to - run.from;
-            runs.push_back(run);
-        });
+    if (!search.other_levels.empty()) {
+        const Reach reach = reach_of(ball);
+        for (const std::uint32_t level : search.other_levels) {
+            for_each_row(levels_[level], ball.centre, reach, [&](const Run& row) {
+                const Run run{starts_[row.from], starts_[row.to]};
+                balls += run.to - run.from;
+                runs.push_back(run);
+            });
+        }
     }
     // Grown by an eighth: the lists are among the largest that there is.
     if (found.size() < used + balls + simd_padding) found.resize(used + used / 8 + balls + simd_padding);
-    const BallArrays arrays{x_.data(), y_.data(), z_.data(), radius_.data(), body_.data(), scale_};
-    Index* const end = search(arrays, ball, body_[k], runs.data(), runs.size(), found.data() + used);
+    const BallArrays near{packed.x.data(),      packed.y.data(),    packed.z.data(),
+                          packed.radius.data(), packed.body.data(), scale_};
+    const Run all{0, static_cast<std::uint32_t>(packed.size)};
+    Index* end = search.search(near, ball, body_[k], &all, 1, found.data() + used);
+    if (!runs.empty()) end = search.search(sorted_balls(), ball, body_[k], runs.data(), runs.size(), end);
     used = static_cast<std::size_t>(end - found.data());
+}
+
+/// Collects what the balls of the cell of the k-th ball may meet.
+void Cells::pack_around(std::uint32_t k, NeighbourSearch& search) const {
+    const Ball ball = sorted_ball(k);
+    const std::size_t own = level_of(ball);
+    const Level& level = levels_[own];
+    const std::uint32_t cell = home_cell(level, ball);
+    const auto pack = [&](const Run& row) { pack_row({starts_[row.from], starts_[row.to]}, search.packed); };
+    search.cell = {starts_[cell], starts_[cell + 1]};
+    search.packed.size = 0;
+    search.other_levels.clear();
+    for_each_row(level, span_around(level, 0, ball.centre[0]), span_around(level, 1, ball.centre[1]),
+                 span_around(level, 2, ball.centre[2]), pack);
+    const Reach reach = reach_of_cell(search.cell, level, ball.centre);
+    for (std::uint32_t other = 0; other < levels_.size(); ++other) {
+        if (other == own || levels_[other].population == 0) continue;
+        // Cells that are finer, or all the cells between balls far apart, are too many to be looked at for every ball.
+        if (other < own || reach[0] > level.edge[0] * 2ULL || reach[1] > level.edge[1] * 2ULL ||
+            reach[2] > level.edge[2] * 2ULL) {
+            search.other_levels.push_back(other);
+        } else {
+            for_each_row(levels_[other], ball.centre, reach, pack);
+        }
+    }
+}
+
+/// From `centre` as far as all balls of a cell reach. They may lie in any turn of the grid.
+Cells::Reach Cells::reach_of_cell(const Run& balls, const Level& level, const std::array<Tick, 3>& centre) const {
+    const auto distance = [](Tick a, Tick b) {
+        return static_cast<std::uint32_t>(std::abs(static_cast<std::int64_t>(static_cast<std::int32_t>(a - b))));
+    };
+    Reach reach{};
+    for (std::uint32_t k = balls.from; k < balls.to; ++k) {
+        reach[0] = std::max<std::uint64_t>(reach[0], distance(x_[k], centre[0]));
+        reach[1] = std::max<std::uint64_t>(reach[1], distance(y_[k], centre[1]));
+        reach[2] = std::max<std::uint64_t>(reach[2], distance(z_[k], centre[2]));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) reach[axis] += level.edge[axis] / 2;
+    return reach;
+}
+
+void Cells::pack_row(const Run& row, PackedBalls& packed) const {
+    // Whole blocks of a fixed size are copied faster than what exactly is there; arrays have room behind their ends.
+    constexpr std::size_t block = 16;
+    static_assert(block <= simd_padding);
+    const std::size_t count = row.to - row.from;
+    const std::size_t needed = packed.size + count + simd_padding;
+    if (packed.x.size() < needed) {
+        packed.x.resize(2 * needed);
+        packed.y.resize(2 * needed);
+        packed.z.resize(2 * needed);
+        packed.radius.resize(2 * needed);
+        packed.body.resize(2 * needed);
+    }
+    const auto copy = [&](const auto& from, auto& to, std::size_t k) {
+        std::memcpy(to.data() + packed.size + k, from.data() + row.from + k, block * sizeof(from[0]));
+    };
+    for (std::size_t k = 0; k < count; k += block) {
+        copy(x_, packed.x, k);
+        copy(y_, packed.y, k);
+        copy(z_, packed.z, k);
+        copy(radius_, packed.radius, k);
+        copy(body_, packed.body, k);
+    }
+    packed.size += count;
+}
+
+void Cells::find_meeting(const Ball& ball, Index self, BallSearch search, std::vector<Run>& runs,
+                         std::vector<Index>& found) const {
+    runs.clear();
+    const Reach reach = reach_of(ball);
+    for (const Level& level : levels_) {
+        if (level.population + level.late == 0) continue;
+        for_each_row(level, ball.centre, reach, [&](const Run& row) {
+            __builtin_prefetch(starts_.data() + row.from);
+            __builtin_prefetch(late_heads_.data() + row.from);
+            runs.push_back(row);
+        });
+    }
+    const auto add_late = [&](Index body) {
+        if (body != self) found.push_back(body);
+    };
+    found.clear();
+    std::size_t balls = 0;
+    for (Run& run : runs) {
+        scan_late(run, ball, add_late);
+        run = {starts_[run.from], starts_[run.to]};
+        prefetch_sorted(run.from);
+        balls += run.to - run.from;
+    }
+    const std::size_t late = found.size();
+    found.resize(late + balls + simd_padding);
+    Index* const end = search(sorted_balls(), ball, self, runs.data(), runs.size(), found.data() + late);
+    found.resize(static_cast<std::size_t>(end - found.data()));
 }
 
 void Cells::update(Index body, const Ball& ball) {

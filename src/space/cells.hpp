@@ -17,9 +17,28 @@
 
 namespace carom::core {
 
+/// Balls that lie together in memory.
+struct PackedBalls {
+    std::vector<Tick> x;
+    std::vector<Tick> y;
+    std::vector<Tick> z;
+    std::vector<float> radius;
+    std::vector<Index> body;
+    std::size_t size = 0; ///< in use; the arrays are longer
+};
+
 /// A sorted index of balls that takes changed ones as it goes.
 class Cells {
 public:
+    /// What a search for the neighbours of one ball after the other keeps: those around the present cell.
+    struct NeighbourSearch {
+        BallSearch search = nullptr;
+        PackedBalls packed;
+        Run cell{};                              ///< the balls of which `packed` has all candidates
+        std::vector<std::uint32_t> other_levels; ///< but for those of these levels
+        std::vector<Run> runs;
+    };
+
     /// What the choice of levels needs to know of the axes.
     struct Axes {
         std::array<double, 3> metres_per_tick{};
@@ -48,8 +67,10 @@ public:
     [[nodiscard]] std::span<const Index> spatial_order() const { return {body_.data(), body_.size() - simd_padding}; }
     /// The bodies whose balls of build() meet that of the k-th body in spatial order; to be called before any update().
     /// Writes to `found`, from `used` on, and moves `used` on.
-    void find_neighbours(std::uint32_t k, BallSearch search, std::vector<Run>& runs, std::vector<Index>& found,
-                         std::size_t& used) const;
+    void find_neighbours(std::uint32_t k, NeighbourSearch& search, std::vector<Index>& found, std::size_t& used) const;
+    /// The bodies other than `self` one of whose balls meets `ball`, once or more often, into `found`.
+    void find_meeting(const Ball& ball, Index self, BallSearch search, std::vector<Run>& runs,
+                      std::vector<Index>& found) const;
 
     [[nodiscard]] std::size_t size() const { return place_.size(); }
     /// The ball that a body is registered with.
@@ -69,6 +90,7 @@ private:
 
     struct Level {
         std::array<Tick, 3> edge{};           ///< longest diameter of this level
+        float largest_radius = 0;             ///< m, that such a diameter allows for
         std::array<std::uint32_t, 3> turns{}; ///< how often the grid repeats along the torus
         std::array<std::uint32_t, 3> cells{}; ///< cells along each axis, 1 or at least 3
         std::uint32_t first_cell = 0;
@@ -86,6 +108,7 @@ private:
         [[nodiscard]] std::uint32_t cell_count() const { return cells[0] * cells[1] * cells[2]; }
         /// Everything fits into the last level.
         [[nodiscard]] bool is_last() const { return edge[0] == 0xffffffffU; }
+        [[nodiscard]] bool fits(const Ball& ball) const { return is_last() || ball.radius <= largest_radius; }
     };
 
     /// `count` cells from `first` on, modulo `cells`.
@@ -121,21 +144,43 @@ private:
     [[nodiscard]] double first_edge(std::size_t bodies) const;
     void lay_out_levels(const Axes& axes);
     static void lay_out_level(Level& level, const Axes& axes);
-    [[nodiscard]] bool fits(const Level& level, const Ball& ball) const;
-    [[nodiscard]] std::size_t level_of(const Ball& ball) const;
+    [[nodiscard]] float largest_radius(const Level& level) const;
+    [[nodiscard]] std::size_t level_of(const Ball& ball) const {
+        std::size_t level = 0;
+        while (!levels_[level].fits(ball)) ++level;
+        return level;
+    }
     static std::uint32_t home_cell(const Level& level, const Ball& ball);
     void start_sorting(std::size_t bodies);
     void place_sorted(Index body, const Ball& ball, std::uint32_t place);
     void replace(std::uint32_t place, const Ball& ball);
     std::uint32_t add_late(Index body, const Ball& ball);
 
-    /// Calls f(run of cells) for the cells of `level` in which a registered ball may meet one.
+    /// Calls f(run of cells) for the cells of `level` in which a registered ball may meet one at `centre`.
     template <class F>
-    static void for_each_row(const Level& level, const Ball& ball, const Reach& reach, F&& f);
+    static void for_each_row(const Level& level, const std::array<Tick, 3>& centre, const Reach& reach, F&& f);
+    template <class F>
+    static void for_each_row(const Level& level, const Span& xs, const Span& ys, const Span& zs, F&& f);
     [[nodiscard]] Reach reach_of(const Ball& ball) const;
     [[nodiscard]] static Span span_of(const Level& level, std::size_t axis, Tick centre, std::uint64_t reach);
+    [[nodiscard]] static Span span_around(const Level& level, std::size_t axis, Tick centre);
+    void pack_around(std::uint32_t k, NeighbourSearch& search) const;
+    [[nodiscard]] Reach reach_of_cell(const Run& balls, const Level& level, const std::array<Tick, 3>& centre) const;
+    void pack_row(const Run& row, PackedBalls& packed) const;
     template <class F>
     void scan_row(const Run& row, const Ball& ball, F& f) const;
+    template <class F>
+    void scan_late(const Run& row, const Ball& ball, F& f) const;
+    [[nodiscard]] BallArrays sorted_balls() const {
+        return {x_.data(), y_.data(), z_.data(), radius_.data(), body_.data(), scale_};
+    }
+    void prefetch_sorted(std::uint32_t place) const {
+        __builtin_prefetch(x_.data() + place);
+        __builtin_prefetch(y_.data() + place);
+        __builtin_prefetch(z_.data() + place);
+        __builtin_prefetch(radius_.data() + place);
+        __builtin_prefetch(body_.data() + place);
+    }
 
     TickScale scale_{};
     std::vector<Level> levels_;
@@ -159,12 +204,15 @@ void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
     start_levels(axes);
     for (std::size_t i = 0; i < bodies; i += sample) count_diameter(ball_at(static_cast<Index>(i)));
     choose_levels(bodies);
-    for (std::size_t i = 0; i < bodies; ++i) ++levels_[level_of(ball_at(static_cast<Index>(i)))].population;
+    place_.resize(bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        place_[i] = static_cast<std::uint32_t>(level_of(ball_at(static_cast<Index>(i))));
+        ++levels_[place_[i]].population;
+    }
     lay_out_levels(axes);
     start_sorting(bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
-        const Ball ball = ball_at(static_cast<Index>(i));
-        place_[i] = home_cell(levels_[level_of(ball)], ball);
+        place_[i] = home_cell(levels_[place_[i]], ball_at(static_cast<Index>(i)));
         ++starts_[place_[i] + 1];
     }
     for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
@@ -177,10 +225,13 @@ void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
 }
 
 template <class F>
-void Cells::for_each_row(const Level& level, const Ball& ball, const Reach& reach, F&& f) {
-    const Span xs = span_of(level, 0, ball.centre[0], reach[0]);
-    const Span ys = span_of(level, 1, ball.centre[1], reach[1]);
-    const Span zs = span_of(level, 2, ball.centre[2], reach[2]);
+void Cells::for_each_row(const Level& level, const std::array<Tick, 3>& centre, const Reach& reach, F&& f) {
+    for_each_row(level, span_of(level, 0, centre[0], reach[0]), span_of(level, 1, centre[1], reach[1]),
+                 span_of(level, 2, centre[2], reach[2]), f);
+}
+
+template <class F>
+void Cells::for_each_row(const Level& level, const Span& xs, const Span& ys, const Span& zs, F&& f) {
     const std::uint32_t end = xs.first + xs.count;
     for (std::uint32_t j = 0; j < zs.count; ++j) {
         for (std::uint32_t i = 0; i < ys.count; ++i) {
@@ -196,7 +247,11 @@ void Cells::scan_row(const Run& row, const Ball& ball, F& f) const {
     for (std::uint32_t k = starts_[row.from]; k < starts_[row.to]; ++k) {
         if (balls_meet(ball, sorted_ball(k), scale_)) f(body_[k]);
     }
-    if (late_.empty()) return;
+    if (!late_.empty()) scan_late(row, ball, f);
+}
+
+template <class F>
+void Cells::scan_late(const Run& row, const Ball& ball, F& f) const {
     for (std::uint32_t c = row.from; c < row.to; ++c) {
         for (std::uint32_t k = late_heads_[c]; k != nothing; k = late_[k].next) {
             if (balls_meet(ball, late_[k].ball, scale_)) f(late_[k].body);
@@ -211,20 +266,14 @@ void Cells::for_each_meeting(const Ball& ball, F&& f) const {
     std::array<Run, most> rows{};
     std::size_t count = 0;
     const auto scan_all = [&] {
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::uint32_t start = starts_[rows[k].from];
-            __builtin_prefetch(x_.data() + start);
-            __builtin_prefetch(y_.data() + start);
-            __builtin_prefetch(z_.data() + start);
-            __builtin_prefetch(radius_.data() + start);
-        }
+        for (std::size_t k = 0; k < count; ++k) prefetch_sorted(starts_[rows[k].from]);
         for (std::size_t k = 0; k < count; ++k) scan_row(rows[k], ball, f);
         count = 0;
     };
     const Reach reach = reach_of(ball);
     for (const Level& level : levels_) {
         if (level.population + level.late == 0) continue;
-        for_each_row(level, ball, reach, [&](const Run& row) {
+        for_each_row(level, ball.centre, reach, [&](const Run& row) {
             __builtin_prefetch(starts_.data() + row.from);
             rows[count++] = row;
             if (count == most) scan_all();

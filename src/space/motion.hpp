@@ -106,4 +106,12 @@ inline Vec3 displacement(const Vec3& velocity, const Vec3& acceleration, double 
     return velocity * duration + acceleration * (0.5 * duration * duration);
 }
 
+/// m, how far from its place a body and its surface may get along any axis until `until`.
+template <class Real>
+double reach_of(const Motion<Real>& m, const Vec3& acceleration, double until) {
+    const auto sum = [](const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+    const double duration = until - m.t;
+    return (sum(velocity_of(m)) + sum(acceleration) * duration) * duration + static_cast<double>(m.radius);
+}
+
 } // namespace carom::core

@@ -13,11 +13,11 @@ void Neighbours::start_lists(std::size_t bodies) {
     for (Part& part : parts_) part.used = 0;
 }
 
-void Neighbours::make_list(Part& part, std::uint32_t number, std::size_t k, BallSearch search) {
+void Neighbours::make_list(Part& part, std::uint32_t number, std::size_t k) {
     const std::size_t place = part.used;
     if (part.lists.size() <= place) part.lists.resize(place + place / 8 + simd_padding);
     ++part.used;
-    cells_.find_neighbours(static_cast<std::uint32_t>(k), search, part.runs, part.lists, part.used);
+    cells_.find_neighbours(static_cast<std::uint32_t>(k), part.search, part.lists, part.used);
     if (part.used > place_mask) throw std::bad_alloc();
     part.lists[place] = static_cast<Index>(part.used - place - 1);
     first_[cells_.spatial_order()[k]] = number << place_bits | static_cast<std::uint32_t>(place);
@@ -39,15 +39,11 @@ void Neighbours::link(Index body, Index other) {
     newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
 }
 
-bool Neighbours::knows(Index body, Index other) const {
+bool Neighbours::is_linked(Index body, Index other) const {
     for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) {
         if (links_[k].other == other) return true;
     }
-    if (first_[body] == nothing) return false;
-    // Lists of build() go both ways, but that of a body without a cover of its own is gone.
-    const std::span<const Index> list = first_[other] == nothing ? list_of(body) : list_of(other);
-    const Index wanted = first_[other] == nothing ? other : body;
-    return std::find(list.begin(), list.end(), wanted) != list.end();
+    return false;
 }
 
 } // namespace carom::core

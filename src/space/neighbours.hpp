@@ -33,13 +33,16 @@ public:
     [[nodiscard]] bool covers(Index body, const Ball& ball) const {
         return ball_holds(cells_.ball_of(body), ball, cells_.scale());
     }
-    /// Replaces the cover of a body and finds its neighbours again.
-    template <class Predicate>
-    void cover_anew(Index body, const Ball& cover, Predicate&& looks_up) {
+    /// Replaces the cover of a body, which is without neighbours until link_all().
+    void replace_cover(Index body, const Ball& cover) {
         cells_.update(body, cover);
         first_[body] = nothing;
         newest_link_[body] = nothing;
-        link_all(body, cover, looks_up);
+    }
+    /// Links a body and all whose covers meet its own.
+    template <class Predicate>
+    void link_all(Index body, Predicate&& looks_up) {
+        link_to(body, cells_.ball_of(body), looks_up);
     }
     /// Takes a body's cover away, and its neighbours.
     void uncover(Index body) {
@@ -57,7 +60,7 @@ public:
     template <class Predicate>
     void extend_cover(Index body, const Ball& cover, Predicate&& looks_up) {
         cells_.add(body, cover);
-        link_all(body, cover, looks_up);
+        link_to(body, cover, looks_up);
     }
     /// Takes away what extend_cover() gave.
     void drop_extensions();
@@ -125,32 +128,33 @@ private:
     struct Part {
         std::vector<Index> lists;
         std::size_t used = 0;
-        std::vector<Run> runs;
+        Cells::NeighbourSearch search;
     };
 
     void start_lists(std::size_t bodies);
     template <class Predicate>
     void make_lists(std::size_t part, std::size_t begin, std::size_t end, Predicate&& looks_up) {
-        const BallSearch search = ball_search();
+        parts_[part].search.search = ball_search();
+        parts_[part].search.cell = {};
         for (std::size_t k = begin; k < end; ++k) {
             const Index body = cells_.spatial_order()[k];
-            if (looks_up(body)) make_list(parts_[part], static_cast<std::uint32_t>(part), k, search);
+            if (looks_up(body)) make_list(parts_[part], static_cast<std::uint32_t>(part), k);
         }
     }
-    void make_list(Part& part, std::uint32_t number, std::size_t k, BallSearch search);
+    void make_list(Part& part, std::uint32_t number, std::size_t k);
 
+    /// Who has the body in a list of build() has it twice then: to find that out would cost more.
     template <class Predicate>
-    void link_all(Index body, const Ball& cover, Predicate&& looks_up) {
-        cells_.for_each_meeting(cover, [&](Index other) {
-            if (other == body) return;
+    void link_to(Index body, const Ball& cover, Predicate&& looks_up) {
+        cells_.find_meeting(cover, body, ball_search(), runs_, meeting_);
+        for (const Index other : meeting_) __builtin_prefetch(&newest_link_[other]);
+        for (const Index other : meeting_) {
             link(body, other);
-            if (looks_up(other) && !knows(other, body)) link(other, body);
-        });
+            if (looks_up(other) && !is_linked(other, body)) link(other, body);
+        }
     }
     void link(Index body, Index other);
-    /// Whether for_each(body) already gives `other`, whose own list of build() is shorter to search than that of a
-    /// giant.
-    [[nodiscard]] bool knows(Index body, Index other) const;
+    [[nodiscard]] bool is_linked(Index body, Index other) const;
 
     Cells cells_;
     std::array<Part, most_parts> parts_;
@@ -159,6 +163,8 @@ private:
     std::vector<Link> links_;
     std::size_t extensions_from_ = 0; ///< in the cells
     std::size_t links_before_ = 0;    ///< the extensions
+    std::vector<Run> runs_;
+    std::vector<Index> meeting_;
 };
 
 } // namespace carom::core

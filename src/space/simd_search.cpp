@@ -3,6 +3,8 @@
 #include <carom/error.hpp>
 #include <carom/executor.hpp>
 
+// Vectors of a size that the compiler does not know cannot be kept in a struct: NEON does.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "space/simd_search.cpp" // this file again, once for each instruction set
 #include <hwy/foreach_target.h>
@@ -10,10 +12,51 @@
 
 #include <cstddef>
 
+// Where a vector has one lane only, the plain searches below do.
+#if HWY_TARGET != HWY_SCALAR
+
 HWY_BEFORE_NAMESPACE();
 namespace carom::core::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+#    if HWY_TARGET == HWY_AVX2
+
+/// For each set of lanes their numbers, in order.
+struct LaneNumbers {
+    std::array<std::array<std::int32_t, 8>, 256> of_set{};
+};
+constexpr LaneNumbers lane_numbers = [] {
+    LaneNumbers numbers;
+    for (std::uint32_t set = 0; set < 256; ++set) {
+        std::size_t count = 0;
+        for (std::int32_t lane = 0; lane < 8; ++lane) {
+            if ((set >> lane & 1U) != 0) numbers.of_set[set][count++] = lane;
+        }
+    }
+    return numbers;
+}();
+
+/// Writes the lanes of the mask, in order, and other values behind them; returns how many. Highway 1.0.3 would copy its
+/// table to the stack, each time: a third of all of a gas.
+template <class D, class M, class T>
+HWY_ATTR std::size_t write_lanes(D lanes, hn::Vec<D> v, M mask, T* out) {
+    std::array<std::uint8_t, 8> set{};
+    hn::StoreMaskBits(lanes, mask, set.data());
+    hn::StoreU(hn::TableLookupLanes(v, hn::SetTableIndices(lanes, lane_numbers.of_set[set[0]].data())), lanes, out);
+    return hn::CountTrue(lanes, mask);
+}
+
+#    else
+
+/// Writes the lanes of the mask, in order, and other values behind them; returns how many.
+template <class D, class M, class T>
+HWY_ATTR std::size_t write_lanes(D lanes, hn::Vec<D> v, M mask, T* out) {
+    hn::StoreU(hn::Compress(v, mask), lanes, out);
+    return hn::CountTrue(lanes, mask);
+}
+
+#    endif
 
 // No multiply-add here: it would be fused on some machines only, and candidates are counted in reports.
 Index* find_meeting(const BallArrays& arrays, const Ball& ball, Index self, const Run* runs, std::size_t run_count,
@@ -39,39 +82,86 @@ Index* find_meeting(const BallArrays& arrays, const Ball& ball, Index self, cons
             const auto meets = hn::RebindMask(indices, hn::Le(squares, hn::Mul(reach, reach)));
             const auto in_run = hn::FirstN(indices, runs[r].to - k);
             const auto found = hn::And(hn::And(meets, in_run), hn::Ne(bodies, own));
-            out += hn::CompressStore(bodies, found, indices, out);
+            out += write_lanes(indices, bodies, found, out);
         }
     }
     return out;
 }
 
+/// Several tracks, word by word.
+template <class V>
+struct TrackWords {
+    std::array<V, 3> start;
+    V reach;
+    std::array<V, 3> speed;
+    V bend;
+};
+
+/// Turns rows of four into columns, in each block of four lanes.
+template <class D, class V = hn::Vec<D>>
+HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
+    const hn::RepartitionToWide<D> pairs;
+    const auto ab = hn::BitCast(pairs, hn::InterleaveLower(floats, a, b));
+    const auto cd = hn::BitCast(pairs, hn::InterleaveLower(floats, c, d));
+    const auto ab_upper = hn::BitCast(pairs, hn::InterleaveUpper(floats, a, b));
+    const auto cd_upper = hn::BitCast(pairs, hn::InterleaveUpper(floats, c, d));
+    a = hn::BitCast(floats, hn::InterleaveLower(pairs, ab, cd));
+    b = hn::BitCast(floats, hn::InterleaveUpper(pairs, ab, cd));
+    c = hn::BitCast(floats, hn::InterleaveLower(pairs, ab_upper, cd_upper));
+    d = hn::BitCast(floats, hn::InterleaveUpper(pairs, ab_upper, cd_upper));
+}
+
+/// The tracks of as many bodies of a list as a vector has lanes; the last one again behind the list's end. Whole tracks
+/// are loaded and transposed, which is faster than gathering them word by word.
+template <class D>
+HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const Index* bodies, std::size_t count) {
+    constexpr std::size_t words = sizeof(Track) / sizeof(float);
+    static_assert(words == 8 && offsetof(Track, reach) == 12 && offsetof(Track, speed) == 16 &&
+                  offsetof(Track, bend) == 28);
+    const auto half_track = [&](std::size_t k, std::size_t half) HWY_ATTR {
+        const auto at = [&](std::size_t lane) {
+            return tracks + words * std::size_t{bodies[std::min(lane, count - 1)]} + 4 * half;
+        };
+        if constexpr (hn::MaxLanes(D()) == 4) {
+            return hn::LoadU(floats, at(k));
+        } else {
+            static_assert(hn::MaxLanes(D()) == 8);
+            const hn::Half<D> block;
+            return hn::Combine(floats, hn::LoadU(block, at(k + 4)), hn::LoadU(block, at(k)));
+        }
+    };
+    auto x = half_track(0, 0);
+    auto y = half_track(1, 0);
+    auto z = half_track(2, 0);
+    auto reach = half_track(3, 0);
+    transpose(floats, x, y, z, reach);
+    auto u = half_track(0, 1);
+    auto v = half_track(1, 1);
+    auto w = half_track(2, 1);
+    auto bend = half_track(3, 1);
+    transpose(floats, u, v, w, bend);
+    return {{x, y, z}, reach, {u, v, w}, bend};
+}
+
 std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Track& track, const Index* bodies,
                         std::size_t count, float from, float to, const TrackMeetings& out) {
-    using Floats = hn::CappedTag<float, simd_padding>;
+    using Floats = hn::CappedTag<float, 8>;
     const Floats floats;
     const hn::RebindToUnsigned<Floats> indices;
     const hn::RebindToSigned<Floats> integers;
-    constexpr int words = sizeof(Track) / sizeof(float);
-    static_assert(words == 8 && offsetof(Track, reach) == 12 && offsetof(Track, speed) == 16 &&
-                  offsetof(Track, bend) == 28);
-    const auto* const words_of_tracks = reinterpret_cast<const float*>(tracks);
+    const auto* const words = reinterpret_cast<const float*>(tracks);
     std::size_t found = 0;
     for (std::size_t k = 0; k < count; k += hn::Lanes(floats)) {
         const auto in_list = hn::FirstN(indices, count - k);
-        const auto list = hn::IfThenElseZero(in_list, hn::LoadU(indices, bodies + k));
-        const auto first_word = hn::BitCast(integers, hn::ShiftLeft<3>(list));
-        const auto word = [&](int number)
-                              HWY_ATTR { return hn::GatherIndex(floats, words_of_tracks + number, first_word); };
-        const auto speed_to = [&](std::size_t axis) HWY_ATTR {
-            return hn::Sub(word(4 + static_cast<int>(axis)), hn::Set(floats, track.speed[axis]));
-        };
+        const auto other = load_tracks(floats, words, bodies + k, count - k);
+        const auto speed_to = [&](std::size_t axis)
+                                  HWY_ATTR { return hn::Sub(other.speed[axis], hn::Set(floats, track.speed[axis])); };
         const auto w0 = speed_to(0);
         const auto w1 = speed_to(1);
         const auto w2 = speed_to(2);
         const auto start = hn::Set(floats, from);
         const auto place = [&](std::size_t axis, auto w) HWY_ATTR {
-            const auto ticks =
-                hn::Sub(hn::BitCast(indices, word(static_cast<int>(axis))), hn::Set(indices, track.start[axis]));
+            const auto ticks = hn::Sub(hn::BitCast(indices, other.start[axis]), hn::Set(indices, track.start[axis]));
             const auto metres =
                 hn::Mul(hn::ConvertTo(floats, hn::BitCast(integers, ticks)), hn::Set(floats, scale.metres[axis]));
             return hn::Add(metres, hn::Mul(w, start));
@@ -80,7 +170,7 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto p1 = place(1, w1);
         const auto p2 = place(2, w2);
         const auto zero = hn::Zero(floats);
-        const auto reach = hn::Add(word(3), hn::Set(floats, track.reach));
+        const auto reach = hn::Add(other.reach, hn::Set(floats, track.reach));
         const auto reach_squared = hn::Mul(reach, reach);
         const auto dot = [&](auto a0, auto a1, auto a2, auto b0, auto b1, auto b2)
                              HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2)); };
@@ -88,7 +178,7 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto closing = hn::Neg(dot(p0, p1, p2, w0, w1, w2));
         const auto speed = dot(w0, w1, w2, w0, w1, w2);
         const auto closing_squared = hn::Mul(closing, closing);
-        const auto bend = hn::Add(word(7), hn::Set(floats, track.bend));
+        const auto bend = hn::Add(other.bend, hn::Set(floats, track.bend));
         const auto is_inside = hn::Le(outside, zero);
         const auto tolerance = hn::Set(floats, scale.tolerance * scale.tolerance);
         const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Eq(bend, zero)),
@@ -101,14 +191,16 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto time = hn::IfThenElse(hn::AndNot(is_inside, hn::Ge(raw, start)), raw, start);
         const auto meets = hn::Or(hn::AndNot(parts, is_inside), hn::AndNot(is_inside, comes));
         const auto hits = hn::And(hn::RebindMask(indices, meets), in_list);
-        hn::CompressStore(time, hn::RebindMask(floats, hits), floats, out.times + found);
-        found += hn::CompressStore(list, hits, indices, out.bodies + found);
+        write_lanes(floats, time, hn::RebindMask(floats, hits), out.times + found);
+        found += write_lanes(indices, hn::LoadU(indices, bodies + k), hits, out.bodies + found);
     }
     return found;
 }
 
 } // namespace carom::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+#endif
 
 #if HWY_ONCE
 
@@ -165,9 +257,6 @@ constexpr auto targets = std::to_array<Target>({
 #    endif
 #    if HWY_TARGETS & HWY_SSSE3
     {HWY_SSSE3, "ssse3", &N_SSSE3::find_meeting, &N_SSSE3::find_tracks},
-#    endif
-#    if HWY_TARGETS & HWY_SVE
-    {HWY_SVE, "sve", &N_SVE::find_meeting, &N_SVE::find_tracks},
 #    endif
 #    if HWY_TARGETS & HWY_NEON
     {HWY_NEON, "neon", &N_NEON::find_meeting, &N_NEON::find_tracks},

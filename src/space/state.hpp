@@ -163,22 +163,27 @@ void book_held_way(const State<Real>& state, Index i, const Vec3& a, const Vec3&
     entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);
 }
 
-/// Brings a body to time `s`: the one place that rounds a position.
+/// Brings a motion with constant acceleration to time `s`, and returns its way, m: the one place that rounds a
+/// position.
+template <class Real>
+Vec3 move_on(Motion<Real>& m, const Vec3& acceleration, double s, const Resolution& resolution) {
+    const double duration = s - m.t;
+    const Vec3 v = velocity_of(m);
+    const bool is_straight = acceleration == Vec3{};
+    const Vec3 d = is_straight ? v * duration : displacement(v, acceleration, duration);
+    m.t = s;
+    m.x = m.x + round_to_units(d, resolution);
+    if (!is_straight) m.v = rounded<Real>(v + acceleration * duration);
+    return d;
+}
+
+/// Brings a body to time `s`.
 template <class Real>
 void advance(State<Real>& state, Index i, double s, Entry& entry) {
     Motion<Real>& m = state.bodies.motion[i];
     const double duration = s - m.t;
     const Vec3 a = acceleration_of(state, i);
-    const Vec3 v = velocity_of(m);
-    m.t = s;
-    if (a == Vec3{}) {
-        m.x = m.x + round_to_units(v * duration, state.resolution);
-        if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, v * duration, duration, entry);
-        return;
-    }
-    const Vec3 d = displacement(v, a, duration);
-    m.x = m.x + round_to_units(d, state.resolution);
-    m.v = rounded<Real>(v + a * duration);
+    const Vec3 d = move_on(m, a, s, state.resolution);
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
 }
 

@@ -4,6 +4,8 @@ namespace carom::core {
 
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 /// Loops over bodies have parts of at least so many.
 constexpr std::size_t body_grain = 4096;
 
@@ -112,11 +114,11 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
 /// that an impact turned looks at its neighbours: more windows mean more room, so more pairs, by its cube.
 template <class Real>
 std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double way) const {
-    constexpr double fixed = 8; // all in units of one pair found
+    constexpr double fixed = 3; // all in units of one pair found
     constexpr double looked_at = 0.5;
     constexpr double planned = 0.4; // anew in every step if bodies are kicked
     const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinite;
     std::uint32_t windows = 1;
     for (std::uint32_t k = 1; k <= Calendar::most_windows; ++k) {
         const double reach = 2 * (census.mean_radius + way * (k + spare_windows()));
@@ -179,16 +181,19 @@ void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windo
     typical_room_ = way * windows;
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
-    for (std::size_t k = 0; k < 3; ++k) scale_.metres[k] = static_cast<float>(ticks_.metres_per_tick()[k]);
+    const auto [x, y, z] = ticks_.metres_per_tick();
+    scale_.metres = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
     scale_.tolerance = static_cast<float>(4 * reach_margin_);
+    // An eighth of the torus, where something has its images.
+    longest_reach_ = state_.bounds.any_periodic() ? 0x1p29 * std::min({x, y, z}) : infinite;
     room_.resize(bodies);
     tracks_.resize(bodies);
     for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t, std::size_t k) {
         const auto body = static_cast<Index>(k);
         prefetch_ahead(state_.bodies.motion.data() + k);
-        take_cover(body, 0);
+        take_room(body, 0);
     });
     neighbours_.build(
         *executor_, bodies, ticks_.axes(census), [this](Index body) { return first_cover(body); },
@@ -199,7 +204,7 @@ void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windo
                 (typical_size_ * typical_size_ * typical_size_);
 }
 
-/// The cover that take_cover() gave at the start of the epoch.
+/// The cover for what take_room() gave at the start of the epoch.
 template <class Real>
 Ball Vicinity<Real>::first_cover(Index body) const {
     const Track& track = tracks_[body];
@@ -242,22 +247,28 @@ void Vicinity<Real>::renew_disturbed() {
 /// Bodies that may leave their covers in this window get new ones, or balls along their paths if they are too fast.
 template <class Real>
 void Vicinity<Real>::renew_exits() {
+    constexpr std::size_t grain = 256;
+    const auto looks_up = [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; };
     sort_and_unite(exits_);
     fast_.clear();
+    renewed_.clear();
     for (const Index body : exits_) {
         if (room_at(body, window_end_) < 0) {
-            const Ball cover = take_cover(body, window_start_);
+            const float room = take_room(body, window_start_);
             if (room_[body] < 0) {
                 neighbours_.uncover(body);
                 fast_.push_back(body);
             } else {
-                neighbours_.cover_anew(body, cover,
-                                       [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
-                plan_meetings(0, body, window_start_, window_);
+                neighbours_.replace_cover(body, cover_at(body, room, window_start_));
+                renewed_.push_back(body);
             }
         }
         plan_exit(0, body, window_ + 1);
     }
+    for (const Index body : renewed_) neighbours_.link_all(body, looks_up);
+    for_each_in_parts(*executor_, renewed_.size(), grain, [&](std::size_t part, std::size_t k) {
+        plan_meetings(part, renewed_[k], window_start_, window_);
+    });
     neighbours_.start_extensions();
     for (const Index body : fast_) {
         cover_along(body, flown(state_, body));
@@ -389,10 +400,7 @@ template <class Real>
 bool Vicinity<Real>::suits_tracks(double speed, double reach) const {
     const double way = speed * length_ * windows_;
     if (!(way < longest_track * typical_size_)) return false;
-    if (!state_.bounds.any_periodic()) return true;
-    constexpr double part_of_torus = 0x1p29;
-    const auto [x, y, z] = ticks_.metres_per_tick();
-    return reach + way < part_of_torus * std::min({x, y, z});
+    return reach + way < longest_reach_;
 }
 
 /// The track of a path in this epoch; one that is not in free flight stays within `room` (m).
@@ -437,18 +445,18 @@ void Vicinity<Real>::take_track(Index body, float room, float now) {
     }
 }
 
-/// Takes the track and the room of a body that is to have a new cover, which is returned.
+/// Takes the track and the room of a body that is to have a new cover, and returns how much room (m) that has to have.
+/// room_ is negative for a body that is too fast for one.
 template <class Real>
-Ball Vicinity<Real>::take_cover(Index body, float now) {
+float Vicinity<Real>::take_room(Index body, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
-    const auto radius = static_cast<double>(m.radius);
-    const Vec3& g = frame_;
-    if (state_.bodies.kind[body] == Kind::fixed) {
+    const Kind kind = state_.bodies.kind[body];
+    if (kind == Kind::fixed) {
         take_track(body, 0, now);
-        return ticks_.ball(m.x, {}, radius + reach_margin_ + fall_);
+        return 0;
     }
-    const bool is_held = state_.bodies.kind[body] == Kind::held;
-    const double speed = length(velocity_of(m) - g * exact_relative(m.t));
+    const bool is_held = kind == Kind::held;
+    const double speed = length(velocity_of(m) - frame_ * exact_relative(m.t));
     const double needed =
         is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
@@ -458,11 +466,19 @@ Ball Vicinity<Real>::take_cover(Index body, float now) {
     if (needed > room || room_[body] < 0) {
         room_[body] = -1;
         tracks_[body] = {.start = ticks_.of(m.x), .reach = std::numeric_limits<float>::infinity(), .bend = 1};
-        return ticks_.ball(m.x, {}, radius + reach_margin_);
+    } else if (is_held) {
+        room_[body] -= static_cast<float>(needed);
     }
-    if (is_held) room_[body] -= static_cast<float>(needed);
-    const Vec3 own = is_held ? Vec3{} : place_at(m, now);
-    return ticks_.ball(m.x, own, radius + reach_margin_ + room + (is_held ? fall_ : sag_));
+    return static_cast<float>(room);
+}
+
+/// A cover with so much room around where a body is at `now`.
+template <class Real>
+Ball Vicinity<Real>::cover_at(Index body, float room, float now) const {
+    const Motion<Real>& m = state_.bodies.motion[body];
+    const bool is_free = state_.bodies.kind[body] == Kind::free;
+    const double reach = static_cast<double>(m.radius) + reach_margin_ + static_cast<double>(room);
+    return ticks_.ball(m.x, is_free ? place_at(m, now) : Vec3{}, reach + (is_free ? sag_ : fall_));
 }
 
 /// m from a free body's position to where it is in the falling frame at `now`.
@@ -522,21 +538,28 @@ void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earli
         calendar_.add_wall(part, earliest, body);
         return;
     }
-    const double time = exact_relative(state_.bodies.motion[body].t) + first_wall_contact(body);
-    const std::uint32_t window = window_of(time, earliest);
+    const Motion<Real>& m = state_.bodies.motion[body];
+    const double end = epoch_ + windows_ * length_ * (1 + slack);
+    const double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    if (!state_.bounds.may_touch(m.x, reach, state_.resolution)) return;
+    const std::uint32_t window = window_of(exact_relative(m.t) + first_wall_contact(m), earliest);
     if (window < windows_) calendar_.add_wall(part, window, body);
+}
+
+/// m that rounded positions may bring a body nearer to a wall, and more: what touches may come to rest.
+template <class Real>
+double Vicinity<Real>::wall_margin(const Motion<Real>& m) const {
+    return 2.0 * Calendar::most_windows * state_.resolution.metres + 1e-9 * static_cast<double>(m.radius);
 }
 
 /// s from a free body's own time, before which it does not meet any wall.
 template <class Real>
-double Vicinity<Real>::first_wall_contact(Index body) const {
-    const Motion<Real>& m = state_.bodies.motion[body];
+double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
     const Vec3 v = velocity_of(m);
     const Vec3& g = state_.laws.gravity;
     const auto radius = static_cast<double>(m.radius);
-    // Rounded positions may bring it nearer, and what touches may come to rest.
-    const double margin = 2.0 * Calendar::most_windows * state_.resolution.metres + 1e-9 * radius;
-    double first = std::numeric_limits<double>::infinity();
+    const double margin = wall_margin(m);
+    double first = infinite;
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
         const double gap = state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) - margin;
         const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;

@@ -143,7 +143,8 @@ private:
     [[nodiscard]] Track track_of(const Flown<Real>& path, double room) const;
     void take_track(Index body, float room, float now);
     [[nodiscard]] float room_at(Index body, float now) const { return room_[body] - speed_of(tracks_[body]) * now; }
-    Ball take_cover(Index body, float now);
+    float take_room(Index body, float now);
+    [[nodiscard]] Ball cover_at(Index body, float room, float now) const;
     [[nodiscard]] Ball first_cover(Index body) const;
     [[nodiscard]] Vec3 place_at(const Motion<Real>& motion, float now) const;
 
@@ -151,7 +152,8 @@ private:
     void plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest);
     void plan_exit(std::size_t part, Index body, std::uint32_t earliest);
     void plan_wall(std::size_t part, Index body, std::uint32_t earliest);
-    [[nodiscard]] double first_wall_contact(Index body) const;
+    [[nodiscard]] double wall_margin(const Motion<Real>& m) const;
+    [[nodiscard]] double first_wall_contact(const Motion<Real>& m) const;
     [[nodiscard]] std::uint32_t window_of(double time, std::uint32_t earliest) const;
 
     /// Calls f(other, time) for the neighbours that a track of a body may meet between `from` and `to`.
@@ -172,12 +174,13 @@ private:
     Ticks ticks_;
     TrackScale scale_{};
     Neighbours neighbours_;
-    double typical_room_ = 0; ///< m
-    double typical_size_ = 0; ///< m, of a cover
-    double reach_margin_ = 0; ///< m, added to radii: more than all roundings of tracks
-    double horizon_ = 0;      ///< s that covers are meant to do for
-    double crowding_ = 0;     ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
-    double turning_ = 0;      ///< part of the bodies that end a window on a new path, of late
+    double typical_room_ = 0;  ///< m
+    double typical_size_ = 0;  ///< m, of a cover
+    double reach_margin_ = 0;  ///< m, added to radii: more than all roundings of tracks
+    double longest_reach_ = 0; ///< m, of tracks
+    double horizon_ = 0;       ///< s that covers are meant to do for
+    double crowding_ = 0;      ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
+    double turning_ = 0;       ///< part of the bodies that end a window on a new path, of late
 
     // The epoch.
     bool epoch_valid_ = false;
@@ -201,7 +204,8 @@ private:
     std::vector<Pair> candidates_;
     std::vector<Index> near_walls_;
     std::vector<Index> exits_;
-    std::vector<Index> fast_; ///< bodies with balls along their paths
+    std::vector<Index> renewed_; ///< bodies with new covers
+    std::vector<Index> fast_;    ///< bodies with balls along their paths
     std::vector<Index> disturbed_;
     std::array<std::vector<Pair>, most_parts> kept_;
 };

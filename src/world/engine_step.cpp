@@ -206,10 +206,7 @@ void Engine<Real>::finish_bodies(double reached) {
         const auto i = static_cast<Index>(k);
         prefetch_ahead(bodies.motion.data() + i);
         Motion<Real>& m = bodies.motion[i];
-        if (bodies.kind[i] == Kind::free) {
-            Entry none;
-            advance(state_, i, reached, none);
-        }
+        if (bodies.kind[i] == Kind::free) move_on(m, state_.laws.gravity, reached, state_.resolution);
         if (is_periodic && bodies.kind[i] != Kind::fixed) m.x = state_.bounds.wrapped(m.x);
         m.t = 0;
         takers[part].count(m, bodies.kind[i]);
