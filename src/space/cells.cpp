@@ -142,6 +142,30 @@ Cells::Span Cells::span_of(const Level& level, std::size_t axis, Tick centre, st
     return {first, std::min(last - first + 1, cells), cells};
 }
 
+std::vector<Index> Cells::tiled_order() const {
+    constexpr std::uint32_t tile = 8;
+    std::vector<Index> order;
+    order.reserve(spatial_order().size());
+    const auto take_tile = [&](const Level& level, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        for (std::uint32_t k = z; k < std::min(z + tile, level.cells[2]); ++k) {
+            for (std::uint32_t j = y; j < std::min(y + tile, level.cells[1]); ++j) {
+                const std::uint32_t row = level.cell_at(0, j, k);
+                const auto from = body_.begin() + starts_[row + x];
+                const auto to = body_.begin() + starts_[row + std::min(x + tile, level.cells[0])];
+                order.insert(order.end(), from, to);
+            }
+        }
+    };
+    for (const Level& level : levels_) {
+        for (std::uint32_t z = 0; z < level.cells[2]; z += tile) {
+            for (std::uint32_t y = 0; y < level.cells[1]; y += tile) {
+                for (std::uint32_t x = 0; x < level.cells[0]; x += tile) take_tile(level, x, y, z);
+            }
+        }
+    }
+    return order;
+}
+
 /// A cell and its neighbours.
 Cells::Span Cells::span_around(const Level& level, std::size_t axis, Tick centre) {
     const std::uint32_t cells = level.cells[axis];

@@ -65,6 +65,9 @@ public:
 
     /// The bodies in the order of their cells.
     [[nodiscard]] std::span<const Index> spatial_order() const { return {body_.data(), body_.size() - simd_padding}; }
+    /// The same bodies, but tile by tile of some cells along each axis: all neighbours but those of a tile's faces are
+    /// near in memory.
+    [[nodiscard]] std::vector<Index> tiled_order() const;
     /// The bodies whose balls of build() meet that of the k-th body in spatial order; to be called before any update().
     /// Writes to `found`, from `used` on, and moves `used` on.
     void find_neighbours(std::uint32_t k, NeighbourSearch& search, std::vector<Index>& found, std::size_t& used) const;

@@ -81,7 +81,6 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
     const double left = std::clamp(std::round((window.step_end - window.from) / duration), 1.0,
                                    static_cast<double>(Calendar::most_windows));
     const auto left_in_step = static_cast<std::uint32_t>(left);
-    calendar_.clear();
     disturbed_.clear();
     if (!kicked_ || !carry_on(window, left_in_step)) {
         if (crowding_ == 0) crowding_ = even_crowding(census);
@@ -91,7 +90,7 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
         build(census, way, ahead);
     }
     epoch_valid_ = true;
-    plan_all();
+    plan_pairs();
 }
 
 template <class Real>
@@ -155,6 +154,7 @@ template <class Real>
 bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
     if (!lists_valid_ || neighbours_.crowded()) return false;
     neighbours_.drop_extensions();
+    calendar_.clear();
     const float now = relative(window.from);
     set_epoch(window, windows);
     const auto needed = static_cast<float>(windows_ * length_);
@@ -162,6 +162,7 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
     for_each_in_parts(*executor_, state_.bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
         const auto body = static_cast<Index>(k);
         take_track(body, room_at(body, now), 0);
+        plan_alone(part, body, 0);
         if (room_at(body, needed) < 0) ++without_room[part];
     });
     charge_held();
@@ -190,10 +191,12 @@ void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windo
     longest_reach_ = state_.bounds.any_periodic() ? 0x1p29 * std::min({x, y, z}) : infinite;
     room_.resize(bodies);
     tracks_.resize(bodies);
-    for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t, std::size_t k) {
+    calendar_.clear();
+    for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t part, std::size_t k) {
         const auto body = static_cast<Index>(k);
         prefetch_ahead(state_.bodies.motion.data() + k);
         take_room(body, 0);
+        plan_alone(part, body, 0);
     });
     neighbours_.build(
         *executor_, bodies, ticks_.axes(census), [this](Index body) { return first_cover(body); },
@@ -214,17 +217,22 @@ Ball Vicinity<Real>::first_cover(Index body) const {
     return ticks_.ball(state_.bodies.motion[body].x, {}, room_[body] < 0 ? radius : radius + fall_);
 }
 
-/// Plans for every body, each pair once.
+/// Plans all pairs, each once.
 template <class Real>
-void Vicinity<Real>::plan_all() {
-    for_each_in_parts(*executor_, state_.bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
-        const auto body = static_cast<Index>(k);
-        plan_exit(part, body, 0);
-        plan_wall(part, body, 0);
-        if (state_.bodies.kind[body] == Kind::fixed) return;
-        for_each_meeting(body, tracks_[body], 0, epoch_end(), [&](Index other, float time) {
-            if (other > body || state_.bodies.kind[other] == Kind::fixed) plan_pair(part, body, other, time, 0);
-        });
+void Vicinity<Real>::plan_pairs() {
+    const std::size_t bodies = state_.bodies.size();
+    for_parts(*executor_, bodies, body_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 8;
+        const auto soon = [end](std::size_t k) { return static_cast<Index>(std::min(k, end - 1)); };
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto body = static_cast<Index>(k);
+            neighbours_.prefetch_list(soon(k + 2 * ahead));
+            prefetch_tracks(soon(k + ahead));
+            if (state_.bodies.kind[body] == Kind::fixed) continue;
+            for_each_meeting(body, tracks_[body], 0, epoch_end(), [&](Index other, float time) {
+                if (other > body || state_.bodies.kind[other] == Kind::fixed) plan_pair(part, body, other, time, 0);
+            });
+        }
     });
 }
 
@@ -239,7 +247,7 @@ void Vicinity<Real>::renew_disturbed() {
     for (const Index body : disturbed_) {
         take_track(body, room_at(body, window_start_), window_start_);
         plan_meetings(0, body, window_start_, window_);
-        plan_exit(0, body, window_);
+        plan_alone(0, body, window_);
     }
     disturbed_.clear();
 }
@@ -386,7 +394,7 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
             plan_meetings(part, turned[k].body, from, window_ + 1);
-            plan_exit(part, turned[k].body, window_ + 1);
+            plan_alone(part, turned[k].body, window_ + 1);
         }
     });
 }
@@ -502,10 +510,16 @@ std::uint32_t Vicinity<Real>::window_of(double time, std::uint32_t earliest) con
     return std::max(earliest, static_cast<std::uint32_t>(std::max(window, 0.0)));
 }
 
-/// Plans all that a body may meet after `from`.
+/// Plans when a body leaves its cover, and when it comes to a wall.
+template <class Real>
+void Vicinity<Real>::plan_alone(std::size_t part, Index body, std::uint32_t earliest) {
+    plan_exit(part, body, earliest);
+    plan_wall(part, body, earliest);
+}
+
+/// Plans which other bodies a body may meet after `from`.
 template <class Real>
 void Vicinity<Real>::plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest) {
-    plan_wall(part, body, earliest);
     for_each_meeting(body, tracks_[body], from, epoch_end(),
                      [&](Index other, float time) { plan_pair(part, body, other, time, earliest); });
 }

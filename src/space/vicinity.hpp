@@ -132,7 +132,7 @@ private:
     [[nodiscard]] double even_crowding(const Census& census) const;
     [[nodiscard]] bool carry_on(const Window& window, std::uint32_t windows);
     void build(const Census& census, double way, std::uint32_t windows_ahead);
-    void plan_all();
+    void plan_pairs();
     void collect_due();
     void renew_disturbed();
     void renew_exits();
@@ -148,6 +148,7 @@ private:
     [[nodiscard]] Ball first_cover(Index body) const;
     [[nodiscard]] Vec3 place_at(const Motion<Real>& motion, float now) const;
 
+    void plan_alone(std::size_t part, Index body, std::uint32_t earliest);
     void plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest);
     void plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest);
     void plan_exit(std::size_t part, Index body, std::uint32_t earliest);

@@ -254,8 +254,7 @@ void Engine<Real>::keep_spatial_order() {
         const Motion<Real>& m = state_.bodies.motion[i];
         return ticks.ball(m.x, {}, static_cast<double>(m.radius));
     });
-    const std::vector<Index> order(cells.spatial_order().begin(), cells.spatial_order().end());
-    reorder(state_.bodies, order);
+    reorder(state_.bodies, cells.tiled_order());
     islands_.vicinity().forget();
 }
 
