@@ -405,7 +405,9 @@ void IslandSolver<Real>::commit(Outcome& outcome) {
     write_down(outcome);
     turned_.clear();
     for (const Member& member : members_) {
-        if (member.turned != nowhere) turned_.push_back({member.body, turned_of(member).room});
+        if (member.turned == nowhere) continue;
+        const Turned<Real>& turned = turned_of(member);
+        turned_.push_back({member.body, turned.room, turned.track});
     }
     vicinity_.settle(turned_);
 }

@@ -1,7 +1,5 @@
 #include "space/cells.hpp"
 
-#include <cstring>
-
 namespace carom::core {
 
 namespace {
@@ -66,6 +64,7 @@ void Cells::lay_out_levels(const Axes& axes) {
     std::uint32_t first_cell = 0;
     for (Level& level : levels_) {
         lay_out_level(level, axes);
+        level.population = 0;
         level.first_cell = first_cell;
         first_cell += level.cell_count();
     }
@@ -107,6 +106,7 @@ void Cells::start_sorting(std::size_t bodies) {
     const std::size_t cell_count = levels_.back().first_cell + 1;
     starts_.assign(cell_count + 1, 0);
     late_heads_.assign(cell_count, nothing);
+    place_.resize(bodies);
     body_.resize(bodies + simd_padding);
     x_.resize(bodies + simd_padding);
     y_.resize(bodies + simd_padding);
@@ -174,57 +174,67 @@ Cells::Span Cells::span_around(const Level& level, std::size_t axis, Tick centre
     return {c == 0 ? cells - 1 : c - 1, 3, cells};
 }
 
-void Cells::find_neighbours(std::uint32_t k, NeighbourSearch& search, std::vector<Index>& found,
+void Cells::find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector<Index>& found,
                             std::size_t& used) const {
-    if (k < search.cell.from || k >= search.cell.to) pack_around(k, search);
+    if (k < searcher.cell_.from || k >= searcher.cell_.to) look_around(k, searcher);
     const Ball ball = sorted_ball(k);
-    PackedBalls& packed = search.packed;
-    std::vector<Run>& runs = search.runs;
-    std::size_t balls = packed.size;
-    runs.clear();
-    if (!search.other_levels.empty()) {
+    BallSearcher::View& apart = searcher.apart_;
+    apart.size = 0;
+    if (!searcher.other_levels_.empty()) {
+        searcher.runs_.clear();
         const Reach reach = reach_of(ball);
-        for (const std::uint32_t level : search.other_levels) {
-            for_each_row(levels_[level], ball.centre, reach, [&](const Run& row) {
-                const Run run{starts_[row.from], starts_[row.to]};
-                balls += run.to - run.from;
-                runs.push_back(run);
-            });
+        for (const std::uint32_t level : searcher.other_levels_) {
+            for_each_row(levels_[level], ball.centre, reach,
+                         [&](const Run& row) { searcher.runs_.push_back({starts_[row.from], starts_[row.to]}); });
         }
+        view(searcher, apart, ball.centre);
     }
     // Grown by an eighth: the lists are among the largest that there is.
-    if (found.size() < used + balls + simd_padding) found.resize(used + used / 8 + balls + simd_padding);
-    const BallArrays near{packed.x.data(),      packed.y.data(),    packed.z.data(),
-                          packed.radius.data(), packed.body.data(), scale_};
-    const Run all{0, static_cast<std::uint32_t>(packed.size)};
-    Index* end = search.search(near, ball, body_[k], &all, 1, found.data() + used);
-    if (!runs.empty()) end = search.search(sorted_balls(), ball, body_[k], runs.data(), runs.size(), end);
+    BallSearcher::View& around = searcher.around_;
+    const std::size_t needed = used + around.size + apart.size + simd_padding;
+    if (found.size() < needed) found.resize(needed + used / 8);
+    const SeenBall seen{tick_distance(around.origin[0], ball.centre[0], scale_[0]),
+                        tick_distance(around.origin[1], ball.centre[1], scale_[1]),
+                        tick_distance(around.origin[2], ball.centre[2], scale_[2]), ball.radius + searcher.margin_,
+                        body_[k]};
+    Index* end = searcher.search_(around.arrays(), around.size, seen, found.data() + used);
+    if (apart.size > 0) end = searcher.search_(apart.arrays(), apart.size, {0, 0, 0, ball.radius, body_[k]}, end);
     used = static_cast<std::size_t>(end - found.data());
 }
 
 /// Collects what the balls of the cell of the k-th ball may meet.
-void Cells::pack_around(std::uint32_t k, NeighbourSearch& search) const {
+void Cells::look_around(std::uint32_t k, BallSearcher& searcher) const {
     const Ball ball = sorted_ball(k);
     const std::size_t own = level_of(ball);
     const Level& level = levels_[own];
     const std::uint32_t cell = home_cell(level, ball);
-    const auto pack = [&](const Run& row) { pack_row({starts_[row.from], starts_[row.to]}, search.packed); };
-    search.cell = {starts_[cell], starts_[cell + 1]};
-    search.packed.size = 0;
-    search.other_levels.clear();
+    const auto take = [&](const Run& row) { searcher.runs_.push_back({starts_[row.from], starts_[row.to]}); };
+    searcher.cell_ = {starts_[cell], starts_[cell + 1]};
+    searcher.runs_.clear();
+    searcher.other_levels_.clear();
+    Reach reach = reach_of_cell(searcher.cell_, level, ball.centre);
+    // In a grid that repeats, balls of one cell may be far apart: each is a cell of its own then.
+    const auto is_far = [&](std::size_t axis) { return reach[axis] > 2 * std::uint64_t{level.edge[axis]}; };
+    if (is_far(0) || is_far(1) || is_far(2)) {
+        searcher.cell_ = {k, k + 1};
+        reach = reach_of(ball);
+    }
     for_each_row(level, span_around(level, 0, ball.centre[0]), span_around(level, 1, ball.centre[1]),
-                 span_around(level, 2, ball.centre[2]), pack);
-    const Reach reach = reach_of_cell(search.cell, level, ball.centre);
+                 span_around(level, 2, ball.centre[2]), take);
     for (std::uint32_t other = 0; other < levels_.size(); ++other) {
         if (other == own || levels_[other].population == 0) continue;
-        // Cells that are finer, or all the cells between balls far apart, are too many to be looked at for every ball.
-        if (other < own || reach[0] > level.edge[0] * 2ULL || reach[1] > level.edge[1] * 2ULL ||
-            reach[2] > level.edge[2] * 2ULL) {
-            search.other_levels.push_back(other);
+        if (other < own) {
+            // Finer cells around all balls of the cell are too many to be looked at for each.
+            searcher.other_levels_.push_back(other);
         } else {
-            for_each_row(levels_[other], ball.centre, reach, pack);
+            for_each_row(levels_[other], ball.centre, reach, take);
         }
     }
+    view(searcher, searcher.around_, ball.centre);
+    // Of places up to three edges from the origin, each rounded twice along each axis.
+    constexpr float roundings = 3 * 2 * 2 * 1.8F * 0x1p-24F;
+    const auto edge = [&](std::size_t axis) { return static_cast<float>(level.edge[axis]) * scale_[axis]; };
+    searcher.margin_ = roundings * std::max({edge(0), edge(1), edge(2)});
 }
 
 /// From `centre` as far as all balls of a cell reach. They may lie in any turn of the grid.
@@ -242,34 +252,27 @@ Cells::Reach Cells::reach_of_cell(const Run& balls, const Level& level, const st
     return reach;
 }
 
-void Cells::pack_row(const Run& row, PackedBalls& packed) const {
-    // Whole blocks of a fixed size are copied faster than what exactly is there; arrays have room behind their ends.
-    constexpr std::size_t block = 16;
-    static_assert(block <= simd_padding);
-    const std::size_t count = row.to - row.from;
-    const std::size_t needed = packed.size + count + simd_padding;
-    if (packed.x.size() < needed) {
-        packed.x.resize(2 * needed);
-        packed.y.resize(2 * needed);
-        packed.z.resize(2 * needed);
-        packed.radius.resize(2 * needed);
-        packed.body.resize(2 * needed);
-    }
-    const auto copy = [&](const auto& from, auto& to, std::size_t k) {
-        std::memcpy(to.data() + packed.size + k, from.data() + row.from + k, block * sizeof(from[0]));
-    };
-    for (std::size_t k = 0; k < count; k += block) {
-        copy(x_, packed.x, k);
-        copy(y_, packed.y, k);
-        copy(z_, packed.z, k);
-        copy(radius_, packed.radius, k);
-        copy(body_, packed.body, k);
-    }
-    packed.size += count;
+/// The balls of the runs of the searcher.
+void Cells::view(BallSearcher& searcher, BallSearcher::View& view, const std::array<Tick, 3>& origin) const {
+    view.origin = origin;
+    view.size = 0;
+    for (const Run& run : searcher.runs_) view.size += run.to - run.from;
+    view.reserve(view.size);
+    searcher.packing_(sorted_balls(), origin, searcher.runs_.data(), searcher.runs_.size(), view.arrays());
 }
 
-void Cells::find_meeting(const Ball& ball, Index self, BallSearch search, std::vector<Run>& runs,
-                         std::vector<Index>& found) const {
+void BallSearcher::View::reserve(std::size_t balls) {
+    const std::size_t needed = balls + simd_padding;
+    if (x.size() >= needed) return;
+    x.resize(2 * needed);
+    y.resize(2 * needed);
+    z.resize(2 * needed);
+    radius.resize(2 * needed);
+    body.resize(2 * needed);
+}
+
+void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, std::vector<Index>& found) const {
+    std::vector<Run>& runs = searcher.runs_;
     runs.clear();
     const Reach reach = reach_of(ball);
     for (const Level& level : levels_) {
@@ -284,16 +287,16 @@ void Cells::find_meeting(const Ball& ball, Index self, BallSearch search, std::v
         if (body != self) found.push_back(body);
     };
     found.clear();
-    std::size_t balls = 0;
     for (Run& run : runs) {
         scan_late(run, ball, add_late);
         run = {starts_[run.from], starts_[run.to]};
         prefetch_sorted(run.from);
-        balls += run.to - run.from;
     }
+    BallSearcher::View& apart = searcher.apart_;
+    view(searcher, apart, ball.centre);
     const std::size_t late = found.size();
-    found.resize(late + balls + simd_padding);
-    Index* const end = search(sorted_balls(), ball, self, runs.data(), runs.size(), found.data() + late);
+    found.resize(late + apart.size + simd_padding);
+    Index* const end = searcher.search_(apart.arrays(), apart.size, {0, 0, 0, ball.radius, self}, found.data() + late);
     found.resize(static_cast<std::size_t>(end - found.data()));
 }
 

@@ -17,28 +17,46 @@
 
 namespace carom::core {
 
-/// Balls that lie together in memory.
-struct PackedBalls {
-    std::vector<Tick> x;
-    std::vector<Tick> y;
-    std::vector<Tick> z;
-    std::vector<float> radius;
-    std::vector<Index> body;
-    std::size_t size = 0; ///< in use; the arrays are longer
+/// Searches among the balls of Cells, on one thread: the functions of the instruction set in use, and buffers.
+class BallSearcher {
+public:
+    /// To be called when the balls or the instruction set may have changed.
+    void start() {
+        packing_ = ball_packing();
+        search_ = ball_search();
+        cell_ = {};
+    }
+
+private:
+    friend class Cells;
+
+    /// Balls seen from one place.
+    struct View {
+        std::array<Tick, 3> origin{};
+        std::size_t size = 0; ///< the arrays are longer
+        std::vector<float> x;
+        std::vector<float> y;
+        std::vector<float> z;
+        std::vector<float> radius;
+        std::vector<Index> body;
+
+        void reserve(std::size_t balls);
+        [[nodiscard]] PackedBalls arrays() { return {x.data(), y.data(), z.data(), radius.data(), body.data()}; }
+    };
+
+    BallPacking packing_ = nullptr;
+    BallSearch search_ = nullptr;
+    Run cell_{};                              ///< balls of a cell that have all that they may meet in `around_`,
+    std::vector<std::uint32_t> other_levels_; ///< but for those of these levels
+    float margin_ = 0;                        ///< m, more than what roundings make of distances there
+    View around_;
+    View apart_; ///< of one ball
+    std::vector<Run> runs_;
 };
 
 /// A sorted index of balls that takes changed ones as it goes.
 class Cells {
 public:
-    /// What a search for the neighbours of one ball after the other keeps: those around the present cell.
-    struct NeighbourSearch {
-        BallSearch search = nullptr;
-        PackedBalls packed;
-        Run cell{};                              ///< the balls of which `packed` has all candidates
-        std::vector<std::uint32_t> other_levels; ///< but for those of these levels
-        std::vector<Run> runs;
-    };
-
     /// What the choice of levels needs to know of the axes.
     struct Axes {
         std::array<double, 3> metres_per_tick{};
@@ -69,11 +87,10 @@ public:
     /// near in memory.
     [[nodiscard]] std::vector<Index> tiled_order() const;
     /// The bodies whose balls of build() meet that of the k-th body in spatial order; to be called before any update().
-    /// Writes to `found`, from `used` on, and moves `used` on.
-    void find_neighbours(std::uint32_t k, NeighbourSearch& search, std::vector<Index>& found, std::size_t& used) const;
+    /// Writes to `found`, from `used` on, and moves `used` on. Cheap if k rises by one from call to call.
+    void find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector<Index>& found, std::size_t& used) const;
     /// The bodies other than `self` one of whose balls meets `ball`, once or more often, into `found`.
-    void find_meeting(const Ball& ball, Index self, BallSearch search, std::vector<Run>& runs,
-                      std::vector<Index>& found) const;
+    void find_meeting(const Ball& ball, Index self, BallSearcher& searcher, std::vector<Index>& found) const;
 
     [[nodiscard]] std::size_t size() const { return place_.size(); }
     /// The ball that a body is registered with.
@@ -97,7 +114,7 @@ private:
         std::array<std::uint32_t, 3> turns{}; ///< how often the grid repeats along the torus
         std::array<std::uint32_t, 3> cells{}; ///< cells along each axis, 1 or at least 3
         std::uint32_t first_cell = 0;
-        std::uint32_t population = 0; ///< of build()
+        std::uint32_t population = 0; ///< of build(); first a guess
         std::uint32_t late = 0;       ///< balls that came later
 
         /// Cell coordinate of a tick: rises along each turn of the grid.
@@ -167,9 +184,9 @@ private:
     [[nodiscard]] Reach reach_of(const Ball& ball) const;
     [[nodiscard]] static Span span_of(const Level& level, std::size_t axis, Tick centre, std::uint64_t reach);
     [[nodiscard]] static Span span_around(const Level& level, std::size_t axis, Tick centre);
-    void pack_around(std::uint32_t k, NeighbourSearch& search) const;
+    void look_around(std::uint32_t k, BallSearcher& searcher) const;
+    void view(BallSearcher& searcher, BallSearcher::View& view, const std::array<Tick, 3>& origin) const;
     [[nodiscard]] Reach reach_of_cell(const Run& balls, const Level& level, const std::array<Tick, 3>& centre) const;
-    void pack_row(const Run& row, PackedBalls& packed) const;
     template <class F>
     void scan_row(const Run& row, const Ball& ball, F& f) const;
     template <class F>
@@ -202,26 +219,25 @@ private:
 
 template <class BallAt>
 void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
-    // A sample is enough: levels decide about speed only.
-    constexpr std::size_t sample = 8;
+    // A sample is enough: levels and their cells decide about speed only.
+    constexpr std::size_t sample = 7;
+    const auto ball_of = [&](std::size_t i) { return ball_at(static_cast<Index>(i)); };
     start_levels(axes);
-    for (std::size_t i = 0; i < bodies; i += sample) count_diameter(ball_at(static_cast<Index>(i)));
+    for (std::size_t i = 0; i < bodies; i += sample) count_diameter(ball_of(i));
     choose_levels(bodies);
-    place_.resize(bodies);
-    for (std::size_t i = 0; i < bodies; ++i) {
-        place_[i] = static_cast<std::uint32_t>(level_of(ball_at(static_cast<Index>(i))));
-        ++levels_[place_[i]].population;
-    }
+    for (std::size_t i = 0; i < bodies; i += sample) levels_[level_of(ball_of(i))].population += sample;
     lay_out_levels(axes);
     start_sorting(bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
-        place_[i] = home_cell(levels_[place_[i]], ball_at(static_cast<Index>(i)));
+        const Ball ball = ball_of(i);
+        Level& level = levels_[level_of(ball)];
+        ++level.population;
+        place_[i] = home_cell(level, ball);
         ++starts_[place_[i] + 1];
     }
     for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
     for (std::size_t i = 0; i < bodies; ++i) {
-        const auto body = static_cast<Index>(i);
-        place_sorted(body, ball_at(body), starts_[place_[i]]++);
+        place_sorted(static_cast<Index>(i), ball_of(i), starts_[place_[i]]++);
     }
     for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
     starts_[0] = 0;

@@ -17,7 +17,7 @@ void Neighbours::make_list(Part& part, std::uint32_t number, std::size_t k) {
     const std::size_t place = part.used;
     if (part.lists.size() <= place) part.lists.resize(place + place / 8 + simd_padding);
     ++part.used;
-    cells_.find_neighbours(static_cast<std::uint32_t>(k), part.search, part.lists, part.used);
+    cells_.find_neighbours(static_cast<std::uint32_t>(k), part.searcher, part.lists, part.used);
     if (part.used > place_mask) throw std::bad_alloc();
     part.lists[place] = static_cast<Index>(part.used - place - 1);
     first_[cells_.spatial_order()[k]] = number << place_bits | static_cast<std::uint32_t>(place);

@@ -128,14 +128,13 @@ private:
     struct Part {
         std::vector<Index> lists;
         std::size_t used = 0;
-        Cells::NeighbourSearch search;
+        BallSearcher searcher;
     };
 
     void start_lists(std::size_t bodies);
     template <class Predicate>
     void make_lists(std::size_t part, std::size_t begin, std::size_t end, Predicate&& looks_up) {
-        parts_[part].search.search = ball_search();
-        parts_[part].search.cell = {};
+        parts_[part].searcher.start();
         for (std::size_t k = begin; k < end; ++k) {
             const Index body = cells_.spatial_order()[k];
             if (looks_up(body)) make_list(parts_[part], static_cast<std::uint32_t>(part), k);
@@ -146,7 +145,8 @@ private:
     /// Who has the body in a list of build() has it twice then: to find that out would cost more.
     template <class Predicate>
     void link_to(Index body, const Ball& cover, Predicate&& looks_up) {
-        cells_.find_meeting(cover, body, ball_search(), runs_, meeting_);
+        searcher_.start();
+        cells_.find_meeting(cover, body, searcher_, meeting_);
         for (const Index other : meeting_) __builtin_prefetch(&newest_link_[other]);
         for (const Index other : meeting_) {
             link(body, other);
@@ -163,7 +163,7 @@ private:
     std::vector<Link> links_;
     std::size_t extensions_from_ = 0; ///< in the cells
     std::size_t links_before_ = 0;    ///< the extensions
-    std::vector<Run> runs_;
+    BallSearcher searcher_;           ///< of link_to()
     std::vector<Index> meeting_;
 };
 

@@ -58,32 +58,59 @@ HWY_ATTR std::size_t write_lanes(D lanes, hn::Vec<D> v, M mask, T* out) {
 
 #    endif
 
-// No multiply-add here: it would be fused on some machines only, and candidates are counted in reports.
-Index* find_meeting(const BallArrays& arrays, const Ball& ball, Index self, const Run* runs, std::size_t run_count,
-                    Index* out) {
+void pack_balls(const BallArrays& balls, const std::array<Tick, 3>& origin, const Run* runs, std::size_t run_count,
+                const PackedBalls& out) {
     using Floats = hn::CappedTag<float, simd_padding>;
     const Floats floats;
     const hn::RebindToUnsigned<Floats> indices;
     const hn::RebindToSigned<Floats> integers;
-    const auto distance = [&](const Tick* ticks, Tick from, float scale) HWY_ATTR {
-        const auto d = hn::Sub(hn::LoadU(indices, ticks), hn::Set(indices, from));
-        return hn::Mul(hn::ConvertTo(floats, hn::BitCast(integers, d)), hn::Set(floats, scale));
+    const auto see = [&](const Tick* ticks, std::size_t axis, float* seen) HWY_ATTR {
+        const auto d = hn::Sub(hn::LoadU(indices, ticks), hn::Set(indices, origin[axis]));
+        const auto metres =
+            hn::Mul(hn::ConvertTo(floats, hn::BitCast(integers, d)), hn::Set(floats, balls.scale[axis]));
+        hn::StoreU(metres, floats, seen);
     };
-    const auto own = hn::Set(indices, self);
-    const auto radius = hn::Set(floats, ball.radius);
+    std::size_t size = 0;
     for (std::size_t r = 0; r < run_count; ++r) {
-        for (std::size_t k = runs[r].from; k < runs[r].to; k += hn::Lanes(floats)) {
-            const auto x = distance(arrays.x + k, ball.centre[0], arrays.scale[0]);
-            const auto y = distance(arrays.y + k, ball.centre[1], arrays.scale[1]);
-            const auto z = distance(arrays.z + k, ball.centre[2], arrays.scale[2]);
-            const auto squares = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-            const auto reach = hn::Add(hn::LoadU(floats, arrays.radius + k), radius);
-            const auto bodies = hn::LoadU(indices, arrays.body + k);
-            const auto meets = hn::RebindMask(indices, hn::Le(squares, hn::Mul(reach, reach)));
-            const auto in_run = hn::FirstN(indices, runs[r].to - k);
-            const auto found = hn::And(hn::And(meets, in_run), hn::Ne(bodies, own));
-            out += write_lanes(indices, bodies, found, out);
+        const std::size_t count = runs[r].to - runs[r].from;
+        for (std::size_t k = 0; k < count; k += hn::Lanes(floats)) {
+            const std::size_t from = runs[r].from + k;
+            const std::size_t to = size + k;
+            see(balls.x + from, 0, out.x + to);
+            see(balls.y + from, 1, out.y + to);
+            see(balls.z + from, 2, out.z + to);
+            hn::StoreU(hn::LoadU(floats, balls.radius + from), floats, out.radius + to);
+            hn::StoreU(hn::LoadU(indices, balls.body + from), indices, out.body + to);
         }
+        size += count;
+    }
+}
+
+// No multiply-add here: it would be fused on some machines only, and candidates are counted in reports.
+Index* find_meeting(const PackedBalls& balls, std::size_t count, const SeenBall& ball, Index* out) {
+    using Floats = hn::CappedTag<float, simd_padding>;
+    const Floats floats;
+    const hn::RebindToUnsigned<Floats> indices;
+    const float* const xs = balls.x;
+    const float* const ys = balls.y;
+    const float* const zs = balls.z;
+    const float* const radii = balls.radius;
+    const Index* const bodies = balls.body;
+    const auto ball_x = hn::Set(floats, ball.x);
+    const auto ball_y = hn::Set(floats, ball.y);
+    const auto ball_z = hn::Set(floats, ball.z);
+    const auto radius = hn::Set(floats, ball.radius);
+    const auto own = hn::Set(indices, ball.body);
+    for (std::size_t k = 0; k < count; k += hn::Lanes(floats)) {
+        const auto x = hn::Sub(hn::LoadU(floats, xs + k), ball_x);
+        const auto y = hn::Sub(hn::LoadU(floats, ys + k), ball_y);
+        const auto z = hn::Sub(hn::LoadU(floats, zs + k), ball_z);
+        const auto squares = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+        const auto reach = hn::Add(hn::LoadU(floats, radii + k), radius);
+        const auto others = hn::LoadU(indices, bodies + k);
+        const auto meets = hn::RebindMask(indices, hn::Le(squares, hn::Mul(reach, reach)));
+        const auto in_list = hn::FirstN(indices, count - k);
+        out += write_lanes(indices, others, hn::And(hn::And(meets, in_list), hn::Ne(others, own)), out);
     }
     return out;
 }
@@ -214,14 +241,30 @@ namespace core {
 
 namespace {
 
-Index* find_meeting_plainly(const BallArrays& arrays, const Ball& ball, Index self, const Run* runs,
-                            std::size_t run_count, Index* out) {
+void pack_balls_plainly(const BallArrays& balls, const std::array<Tick, 3>& origin, const Run* runs,
+                        std::size_t run_count, const PackedBalls& out) {
+    std::size_t to = 0;
     for (std::size_t r = 0; r < run_count; ++r) {
         for (std::size_t k = runs[r].from; k < runs[r].to; ++k) {
-            const Ball other{{arrays.x[k], arrays.y[k], arrays.z[k]}, arrays.radius[k]};
-            *out = arrays.body[k];
-            out += balls_meet(ball, other, arrays.scale) && arrays.body[k] != self ? 1 : 0;
+            out.x[to] = tick_distance(origin[0], balls.x[k], balls.scale[0]);
+            out.y[to] = tick_distance(origin[1], balls.y[k], balls.scale[1]);
+            out.z[to] = tick_distance(origin[2], balls.z[k], balls.scale[2]);
+            out.radius[to] = balls.radius[k];
+            out.body[to] = balls.body[k];
+            ++to;
         }
+    }
+}
+
+Index* find_meeting_plainly(const PackedBalls& balls, std::size_t count, const SeenBall& ball, Index* out) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const float x = balls.x[k] - ball.x;
+        const float y = balls.y[k] - ball.y;
+        const float z = balls.z[k] - ball.z;
+        const float reach = balls.radius[k] + ball.radius;
+        const bool meets = x * x + y * y + z * z <= reach * reach;
+        *out = balls.body[k];
+        out += meets && balls.body[k] != ball.body ? 1 : 0;
     }
     return out;
 }
@@ -241,27 +284,28 @@ std::size_t find_tracks_plainly(const Track* tracks, const TrackScale& scale, co
 struct Target {
     std::int64_t bits = 0; ///< as Highway numbers them; 0: everywhere
     std::string_view name;
+    BallPacking packing = nullptr;
     BallSearch balls = nullptr;
     TrackSearch tracks = nullptr;
 };
 
 constexpr auto targets = std::to_array<Target>({
 #    if HWY_TARGETS & HWY_AVX3
-    {HWY_AVX3, "avx512", &N_AVX3::find_meeting, &N_AVX3::find_tracks},
+    {HWY_AVX3, "avx512", &N_AVX3::pack_balls, &N_AVX3::find_meeting, &N_AVX3::find_tracks},
 #    endif
 #    if HWY_TARGETS & HWY_AVX2
-    {HWY_AVX2, "avx2", &N_AVX2::find_meeting, &N_AVX2::find_tracks},
+    {HWY_AVX2, "avx2", &N_AVX2::pack_balls, &N_AVX2::find_meeting, &N_AVX2::find_tracks},
 #    endif
 #    if HWY_TARGETS & HWY_SSE4
-    {HWY_SSE4, "sse4", &N_SSE4::find_meeting, &N_SSE4::find_tracks},
+    {HWY_SSE4, "sse4", &N_SSE4::pack_balls, &N_SSE4::find_meeting, &N_SSE4::find_tracks},
 #    endif
 #    if HWY_TARGETS & HWY_SSSE3
-    {HWY_SSSE3, "ssse3", &N_SSSE3::find_meeting, &N_SSSE3::find_tracks},
+    {HWY_SSSE3, "ssse3", &N_SSSE3::pack_balls, &N_SSSE3::find_meeting, &N_SSSE3::find_tracks},
 #    endif
 #    if HWY_TARGETS & HWY_NEON
-    {HWY_NEON, "neon", &N_NEON::find_meeting, &N_NEON::find_tracks},
+    {HWY_NEON, "neon", &N_NEON::pack_balls, &N_NEON::find_meeting, &N_NEON::find_tracks},
 #    endif
-    {0, "scalar", &find_meeting_plainly, &find_tracks_plainly},
+    {0, "scalar", &pack_balls_plainly, &find_meeting_plainly, &find_tracks_plainly},
 });
 
 bool is_supported(const Target& target) {
@@ -294,6 +338,7 @@ std::atomic<const Target*>& choice() {
 
 } // namespace
 
+BallPacking ball_packing() { return choice().load()->packing; }
 BallSearch ball_search() { return choice().load()->balls; }
 TrackSearch track_search() { return choice().load()->tracks; }
 

@@ -362,7 +362,8 @@ float Vicinity<Real>::room_left(Index body, const Flown<Real>& path) const {
 
 template <class Real>
 Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
-    return track_of(path, path.kind == Kind::held ? held_way(path.motion, path.acceleration) : 0);
+    const double room = path.kind == Kind::held ? held_way(path.motion, path.acceleration) : 0;
+    return track_of(path.motion, path.kind, room);
 }
 
 template <class Real>
@@ -374,13 +375,14 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
     const bool is_last = window_ + 1 >= windows_;
     if (is_last && !kicked_) return;
     constexpr std::size_t grain = 512;
-    for_parts(*executor_, turned.size(), grain, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for_each_in_parts(*executor_, turned.size(), grain, [&](std::size_t, std::size_t k) {
         constexpr std::size_t ahead = 8;
-        for (std::size_t k = begin; k < end; ++k) {
-            const Index soon = turned[std::min(k + ahead, end - 1)].body;
-            __builtin_prefetch(&state_.bodies.motion[soon]);
-            prefetch(soon);
-            take_track(turned[k].body, turned[k].room, window_end_);
+        prefetch(turned[std::min(k + ahead, turned.size() - 1)].body);
+        const TurnedBody& t = turned[k];
+        if (state_.bodies.kind[t.body] == Kind::free) {
+            put_track(t.body, t.track, t.room, window_end_);
+        } else {
+            take_track(t.body, t.room, window_end_);
         }
     });
     if (is_last) return;
@@ -391,6 +393,7 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
         const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack * length_);
         for (std::size_t k = begin; k < end; ++k) {
             prefetch(soon(k + 3 * ahead));
+            __builtin_prefetch(&state_.bodies.motion[soon(k + 2 * ahead)]);
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
             plan_meetings(part, turned[k].body, from, window_ + 1);
@@ -413,12 +416,11 @@ bool Vicinity<Real>::suits_tracks(double speed, double reach) const {
 
 /// The track of a path in this epoch; one that is not in free flight stays within `room` (m).
 template <class Real>
-Track Vicinity<Real>::track_of(const Flown<Real>& path, double room) const {
+Track Vicinity<Real>::track_of(const Motion<Real>& m, Kind kind, double room) const {
     constexpr double rounding = 2e-6;
-    const Motion<Real>& m = path.motion;
     const Vec3& g = frame_;
     const double now = exact_relative(m.t);
-    const bool is_free = path.kind == Kind::free;
+    const bool is_free = kind == Kind::free;
     const Vec3 v = is_free ? velocity_of(m) - g * now : Vec3{};
     const double reach =
         static_cast<double>(m.radius) * (1 + rounding) + reach_margin_ + (is_free ? sag_ : room + fall_);
@@ -439,17 +441,23 @@ Track Vicinity<Real>::track_of(const Flown<Real>& path, double room) const {
 /// A body goes its present way, with so much room at `now`.
 template <class Real>
 void Vicinity<Real>::take_track(Index body, float room, float now) {
+    const Motion<Real>& m = state_.bodies.motion[body];
     const Kind kind = state_.bodies.kind[body];
-    const Flown<Real> path = flown(state_, body);
     // The room of a held body is what it has beside its way in this step.
-    const double way = kind == Kind::held ? held_way(path.motion, path.acceleration) : 0;
-    tracks_[body] = track_of(path, static_cast<double>(std::max(0.0F, room)) + way);
-    if (kind == Kind::fixed) {
+    const double way = kind == Kind::held ? held_way(m, acceleration_of(state_, body)) : 0;
+    put_track(body, track_of(m, kind, static_cast<double>(std::max(0.0F, room)) + way), room, now);
+}
+
+/// A body goes along a track, with so much room at `now`.
+template <class Real>
+void Vicinity<Real>::put_track(Index body, const Track& track, float room, float now) {
+    tracks_[body] = track;
+    if (state_.bodies.kind[body] == Kind::fixed) {
         room_[body] = std::numeric_limits<float>::infinity();
-    } else if (std::isinf(tracks_[body].reach)) {
+    } else if (std::isinf(track.reach)) {
         room_[body] = -1;
     } else {
-        room_[body] = room - static_cast<float>(sag_) + speed_of(tracks_[body]) * now;
+        room_[body] = room - static_cast<float>(sag_) + speed_of(track) * now;
     }
 }
 

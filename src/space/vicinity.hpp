@@ -34,6 +34,7 @@ Flown<Real> flown(const State<Real>& state, Index i) {
 struct TurnedBody {
     Index body = no_index;
     float room = 0;
+    Track track{}; ///< if it is free
 };
 
 /// Lists of neighbours, tracks, and a calendar of when bodies may meet. All hold for an *epoch* of several windows, so
@@ -140,8 +141,9 @@ private:
     [[nodiscard]] double held_way(const Motion<Real>& motion, const Vec3& acceleration) const;
 
     [[nodiscard]] bool suits_tracks(double speed, double reach) const;
-    [[nodiscard]] Track track_of(const Flown<Real>& path, double room) const;
+    [[nodiscard]] Track track_of(const Motion<Real>& motion, Kind kind, double room) const;
     void take_track(Index body, float room, float now);
+    void put_track(Index body, const Track& track, float room, float now);
     [[nodiscard]] float room_at(Index body, float now) const { return room_[body] - speed_of(tracks_[body]) * now; }
     float take_room(Index body, float now);
     [[nodiscard]] Ball cover_at(Index body, float room, float now) const;

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <random>
 #include <string>
@@ -14,13 +16,15 @@
 
 namespace {
 
-using carom::core::Ball;
 using carom::core::BallArrays;
 using carom::core::Index;
+using carom::core::PackedBalls;
+using carom::core::SeenBall;
 using carom::core::simd_padding;
 using carom::core::Tick;
 using carom::core::Track;
 using carom::core::TrackScale;
+using Runs = std::vector<carom::core::Run>;
 
 constexpr std::size_t count = 300;
 
@@ -31,6 +35,49 @@ public:
 
 private:
     std::string name_{carom::simd_target()};
+};
+
+/// Balls as one instruction set packs and searches them.
+class Seen {
+public:
+    Seen(std::string_view target, const BallArrays& balls, const std::array<Tick, 3>& origin, const Runs& runs)
+        : target_(target) {
+        for (const carom::core::Run& run : runs) size_ += run.to - run.from;
+        for (std::vector<float>* const array : {&x_, &y_, &z_, &radius_}) array->resize(size_ + simd_padding);
+        body_.resize(size_ + simd_padding);
+        carom::use_simd_target(target_);
+        carom::core::ball_packing()(balls, origin, runs.data(), runs.size(),
+                                    {x_.data(), y_.data(), z_.data(), radius_.data(), body_.data()});
+    }
+
+    [[nodiscard]] std::vector<float> places() const {
+        std::vector<float> all;
+        for (const std::vector<float>* const array : {&x_, &y_, &z_}) {
+            all.insert(all.end(), array->begin(), array->begin() + static_cast<std::ptrdiff_t>(size_));
+        }
+        return all;
+    }
+
+    [[nodiscard]] std::vector<Index> meeting(const SeenBall& ball) const {
+        // The searches only read what they are given.
+        Seen copy = *this;
+        const PackedBalls balls{copy.x_.data(), copy.y_.data(), copy.z_.data(), copy.radius_.data(), copy.body_.data()};
+        std::vector<Index> list(size_ + simd_padding);
+        carom::use_simd_target(target_);
+        const Index* const end = carom::core::ball_search()(balls, size_, ball, list.data());
+        list.resize(static_cast<std::size_t>(end - list.data()));
+        EXPECT_EQ(copy.places(), places());
+        return list;
+    }
+
+private:
+    std::string target_;
+    std::size_t size_ = 0;
+    std::vector<float> x_;
+    std::vector<float> y_;
+    std::vector<float> z_;
+    std::vector<float> radius_;
+    std::vector<Index> body_;
 };
 
 class SimdSearch : public testing::Test {
@@ -64,22 +111,16 @@ TEST_F(SimdSearch, BallsAreFoundAlike) {
     const BallArrays arrays{x.data(), y.data(), z.data(), radius.data(), body.data(), {1e-3F, 1e-3F, 2e-3F}};
     std::size_t found = 0;
     for (std::uint32_t from = 0; from < 70; ++from) {
-        const std::vector<carom::core::Run> runs{
-            {from, from + from % 40}, {from + 50, from + 50}, {150, 150 + 2 * from}};
-        const Ball ball{{tick(), tick(), tick()}, within(0, 0.5)};
-        carom::use_simd_target("scalar");
-        std::vector<Index> expected(2 * count + simd_padding);
-        expected.resize(static_cast<std::size_t>(
-            carom::core::ball_search()(arrays, ball, body[from], runs.data(), runs.size(), expected.data()) -
-            expected.data()));
-        found += expected.size();
+        const Runs runs{{from, from + from % 40}, {from + 50, from + 50}, {150, 150 + 2 * from}};
+        const SeenBall ball{within(-1, 1), within(-1, 1), within(-1, 1), within(0, 0.5), body[from]};
+        const std::array<Tick, 3> origin{tick(), tick(), tick()};
+        const Seen expected("scalar", arrays, origin, runs);
+        const std::vector<Index> expected_list = expected.meeting(ball);
+        found += expected_list.size();
         for (const std::string_view target : carom::simd_targets()) {
-            carom::use_simd_target(target);
-            std::vector<Index> list(2 * count + simd_padding);
-            list.resize(static_cast<std::size_t>(
-                carom::core::ball_search()(arrays, ball, body[from], runs.data(), runs.size(), list.data()) -
-                list.data()));
-            EXPECT_EQ(list, expected) << target << ", from " << from;
+            const Seen seen(target, arrays, origin, runs);
+            EXPECT_EQ(seen.places(), expected.places()) << target << ", from " << from;
+            EXPECT_EQ(seen.meeting(ball), expected_list) << target << ", from " << from;
         }
     }
     EXPECT_GT(found, 100U);
