@@ -22,7 +22,10 @@ constexpr double relative_margin = 1e-5;
 } // namespace
 
 void Cells::start_levels(const Axes& axes) {
-    for (std::size_t k = 0; k < 3; ++k) scale_[k] = static_cast<float>(axes.metres_per_tick[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+        scale_[k] = static_cast<float>(axes.metres_per_tick[k]);
+        ticks_per_metre_[k] = 1 / static_cast<double>(scale_[k]);
+    }
     histogram_.assign(bin_count, 0);
     levels_.clear();
     late_.clear();
@@ -51,7 +54,9 @@ void Cells::choose_levels(std::size_t bodies) {
         std::max(first_edge(sampled), 8 * static_cast<double>(*std::max_element(scale_.begin(), scale_.end())));
     for (; bodies > 0; edge *= 4) {
         Level level;
-        const auto ticks = [&](std::size_t k) { return ticks_of(edge, k) * (1 + relative_margin) + 2 * tick_margin; };
+        const auto ticks = [&](std::size_t k) {
+            return edge * ticks_per_metre_[k] * (1 + relative_margin) + 2 * tick_margin;
+        };
         if (!(std::max({ticks(0), ticks(1), ticks(2)}) < whole_turn / 4)) break;
         for (std::size_t k = 0; k < 3; ++k) level.edge[k] = static_cast<Tick>(ticks(k));
         level.largest_radius = largest_radius(level);
@@ -122,9 +127,11 @@ void Cells::place_sorted(Index body, const Ball& ball, std::uint32_t place) {
 
 Cells::Reach Cells::reach_of(const Ball& ball) const {
     constexpr double most = 4.0e9;
+    const double radius = static_cast<double>(ball.radius) * (1 + relative_margin);
     Reach reach{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double ticks = ticks_of(static_cast<double>(ball.radius) * (1 + relative_margin), k) + tick_margin;
+        const double ticks = radius * ticks_per_metre_[k] + tick_margin;
+        // Also where it is not a number.
         reach[k] = static_cast<std::uint64_t>(ticks < most ? ticks : most);
     }
     return reach;
@@ -166,14 +173,6 @@ std::vector<Index> Cells::tiled_order() const {
     return order;
 }
 
-/// A cell and its neighbours.
-Cells::Span Cells::span_around(const Level& level, std::size_t axis, Tick centre) {
-    const std::uint32_t cells = level.cells[axis];
-    if (cells == 1) return {0, 1, 1};
-    const std::uint32_t c = level.coordinate(axis, centre);
-    return {c == 0 ? cells - 1 : c - 1, 3, cells};
-}
-
 void Cells::find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector<Index>& found,
                             std::size_t& used) const {
     if (k < searcher.cell_.from || k >= searcher.cell_.to) look_around(k, searcher);
@@ -182,11 +181,8 @@ void Cells::find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector
     apart.size = 0;
     if (!searcher.other_levels_.empty()) {
         searcher.runs_.clear();
-        const Reach reach = reach_of(ball);
-        for (const std::uint32_t level : searcher.other_levels_) {
-            for_each_row(levels_[level], ball.centre, reach,
-                         [&](const Run& row) { searcher.runs_.push_back({starts_[row.from], starts_[row.to]}); });
-        }
+        const Region region{ball.centre, reach_of(ball)};
+        for (const std::uint32_t level : searcher.other_levels_) take_rows(levels_[level], region, searcher.runs_);
         view(searcher, apart, ball.centre);
     }
     // Grown by an eighth: the lists are among the largest that there is.
@@ -208,48 +204,64 @@ void Cells::look_around(std::uint32_t k, BallSearcher& searcher) const {
     const std::size_t own = level_of(ball);
     const Level& level = levels_[own];
     const std::uint32_t cell = home_cell(level, ball);
-    const auto take = [&](const Run& row) { searcher.runs_.push_back({starts_[row.from], starts_[row.to]}); };
     searcher.cell_ = {starts_[cell], starts_[cell + 1]};
+    Region region = region_of(searcher.cell_, ball.centre);
+    // In a grid that repeats, balls of one cell may be far apart; in a coarse one, what is seen from the origin on
+    // opposite sides may meet round the torus. Each ball is a cell of its own, and the origin, then.
+    constexpr Tick coarse = 1U << 28U;
+    const auto is_wide = [&](std::size_t axis) {
+        return level.edge[axis] > coarse || region.reach[axis] > 2 * std::uint64_t{level.edge[axis]};
+    };
+    const bool is_alone = is_wide(0) || is_wide(1) || is_wide(2);
+    if (is_alone) {
+        searcher.cell_ = {k, k + 1};
+        region = {ball.centre, reach_of(ball)};
+    }
     searcher.runs_.clear();
     searcher.other_levels_.clear();
-    Reach reach = reach_of_cell(searcher.cell_, level, ball.centre);
-    // In a grid that repeats, balls of one cell may be far apart: each is a cell of its own then.
-    const auto is_far = [&](std::size_t axis) { return reach[axis] > 2 * std::uint64_t{level.edge[axis]}; };
-    if (is_far(0) || is_far(1) || is_far(2)) {
-        searcher.cell_ = {k, k + 1};
-        reach = reach_of(ball);
-    }
-    for_each_row(level, span_around(level, 0, ball.centre[0]), span_around(level, 1, ball.centre[1]),
-                 span_around(level, 2, ball.centre[2]), take);
     for (std::uint32_t other = 0; other < levels_.size(); ++other) {
-        if (other == own || levels_[other].population == 0) continue;
-        if (other < own) {
-            // Finer cells around all balls of the cell are too many to be looked at for each.
+        if (levels_[other].population == 0) continue;
+        if (other < own || (levels_[other].is_last() && !is_alone)) {
+            // Finer cells around all balls of the cell are too many to be looked at for each; the balls of the last
+            // level reach round the torus.
             searcher.other_levels_.push_back(other);
         } else {
-            for_each_row(levels_[other], ball.centre, reach, take);
+            take_rows(levels_[other], region, searcher.runs_);
         }
     }
     view(searcher, searcher.around_, ball.centre);
-    // Of places up to three edges from the origin, each rounded twice along each axis.
-    constexpr float roundings = 3 * 2 * 2 * 1.8F * 0x1p-24F;
+    // Of places up to five edges from the origin, each rounded twice along each axis.
+    constexpr float roundings = 5 * 2 * 2 * 1.8F * 0x1p-24F;
     const auto edge = [&](std::size_t axis) { return static_cast<float>(level.edge[axis]) * scale_[axis]; };
     searcher.margin_ = roundings * std::max({edge(0), edge(1), edge(2)});
 }
 
-/// From `centre` as far as all balls of a cell reach. They may lie in any turn of the grid.
-Cells::Reach Cells::reach_of_cell(const Run& balls, const Level& level, const std::array<Tick, 3>& centre) const {
-    const auto distance = [](Tick a, Tick b) {
-        return static_cast<std::uint32_t>(std::abs(static_cast<std::int64_t>(static_cast<std::int32_t>(a - b))));
-    };
-    Reach reach{};
+void Cells::take_rows(const Level& level, const Region& region, std::vector<Run>& runs) const {
+    for_each_row(level, region.centre, region.reach, [&](const Run& row) {
+        const Run run{starts_[row.from], starts_[row.to]};
+        if (run.from < run.to) runs.push_back(run);
+    });
+}
+
+/// What the balls of a run take up, of which one is at `centre`. They may lie in any turn of the grid.
+Cells::Region Cells::region_of(const Run& balls, const std::array<Tick, 3>& centre) const {
+    std::array<std::int64_t, 3> low{};
+    std::array<std::int64_t, 3> high{};
     for (std::uint32_t k = balls.from; k < balls.to; ++k) {
-        reach[0] = std::max<std::uint64_t>(reach[0], distance(x_[k], centre[0]));
-        reach[1] = std::max<std::uint64_t>(reach[1], distance(y_[k], centre[1]));
-        reach[2] = std::max<std::uint64_t>(reach[2], distance(z_[k], centre[2]));
+        const Ball ball = sorted_ball(k);
+        const Reach reach = reach_of(ball);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto place = std::int64_t{static_cast<std::int32_t>(ball.centre[axis] - centre[axis])};
+            low[axis] = std::min(low[axis], place - static_cast<std::int64_t>(reach[axis]));
+            high[axis] = std::max(high[axis], place + static_cast<std::int64_t>(reach[axis]));
+        }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) reach[axis] += level.edge[axis] / 2;
-    return reach;
+    Region region;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        region.centre[axis] = centre[axis] + static_cast<Tick>((low[axis] + high[axis]) / 2);
+        region.reach[axis] = static_cast<std::uint64_t>((high[axis] - low[axis]) / 2 + 1);
+    }
+    return region;
 }
 
 /// The balls of the runs of the searcher.

@@ -144,6 +144,10 @@ private:
 
     /// A ball's half size along each axis, more than all roundings.
     using Reach = std::array<std::uint64_t, 3>;
+    struct Region {
+        std::array<Tick, 3> centre{};
+        Reach reach{};
+    };
 
     struct Late {
         Ball ball{};
@@ -153,9 +157,6 @@ private:
 
     [[nodiscard]] Ball sorted_ball(std::uint32_t place) const {
         return {{x_[place], y_[place], z_[place]}, radius_[place]};
-    }
-    [[nodiscard]] double ticks_of(double metres, std::size_t axis) const {
-        return metres / static_cast<double>(scale_[axis]);
     }
 
     void start_levels(const Axes& axes);
@@ -183,10 +184,10 @@ private:
     static void for_each_row(const Level& level, const Span& xs, const Span& ys, const Span& zs, F&& f);
     [[nodiscard]] Reach reach_of(const Ball& ball) const;
     [[nodiscard]] static Span span_of(const Level& level, std::size_t axis, Tick centre, std::uint64_t reach);
-    [[nodiscard]] static Span span_around(const Level& level, std::size_t axis, Tick centre);
     void look_around(std::uint32_t k, BallSearcher& searcher) const;
     void view(BallSearcher& searcher, BallSearcher::View& view, const std::array<Tick, 3>& origin) const;
-    [[nodiscard]] Reach reach_of_cell(const Run& balls, const Level& level, const std::array<Tick, 3>& centre) const;
+    void take_rows(const Level& level, const Region& region, std::vector<Run>& runs) const;
+    [[nodiscard]] Region region_of(const Run& balls, const std::array<Tick, 3>& centre) const;
     template <class F>
     void scan_row(const Run& row, const Ball& ball, F& f) const;
     template <class F>
@@ -203,6 +204,7 @@ private:
     }
 
     TickScale scale_{};
+    std::array<double, 3> ticks_per_metre_{};
     std::vector<Level> levels_;
     std::vector<std::uint32_t> starts_;     ///< per cell, where its balls begin in the sorted arrays; and their end
     std::vector<std::uint32_t> late_heads_; ///< per cell, of the list of its late balls

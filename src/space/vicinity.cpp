@@ -113,9 +113,10 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
 /// that an impact turned looks at its neighbours: more windows mean more room, so more pairs, by its cube.
 template <class Real>
 std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double way) const {
-    constexpr double fixed = 3; // all in units of one pair found
-    constexpr double looked_at = 0.5;
-    constexpr double planned = 0.4; // anew in every step if bodies are kicked
+    // All in units of one pair found; fitted to the workloads.
+    constexpr double fixed = 15;
+    constexpr double looked_at = 8;
+    constexpr double planned = 0.2; // anew in every step if bodies are kicked
     const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
     double best = infinite;
     std::uint32_t windows = 1;
