@@ -185,10 +185,13 @@ void Cells::find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector
         for (const std::uint32_t level : searcher.other_levels_) take_rows(levels_[level], region, searcher.runs_);
         view(searcher, apart, ball.centre);
     }
-    // Grown by an eighth: the lists are among the largest that there is.
+    // Grown by an eighth, where resize() alone would double: the lists are among the largest that there is.
     BallSearcher::View& around = searcher.around_;
     const std::size_t needed = used + around.size + apart.size + simd_padding;
-    if (found.size() < needed) found.resize(needed + used / 8);
+    if (found.size() < needed) {
+        found.reserve(needed + used / 8);
+        found.resize(needed + used / 8);
+    }
     const SeenBall seen{tick_distance(around.origin[0], ball.centre[0], scale_[0]),
                         tick_distance(around.origin[1], ball.centre[1], scale_[1]),
                         tick_distance(around.origin[2], ball.centre[2], scale_[2]), ball.radius + searcher.margin_,

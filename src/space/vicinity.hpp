@@ -183,7 +183,7 @@ private:
     double longest_reach_ = 0; ///< m, of tracks
     double horizon_ = 0;       ///< s that covers are meant to do for
     double crowding_ = 0;      ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
-    double turning_ = 0;       ///< part of the bodies that end a window on a new path, of late
+    double turning_ = 0.1;     ///< part of the bodies that end a window on a new path, of late; first a guess
 
     // The epoch.
     bool epoch_valid_ = false;
