@@ -180,8 +180,6 @@ private:
     /// Calls f(run of cells) for the cells of `level` in which a registered ball may meet one at `centre`.
     template <class F>
     static void for_each_row(const Level& level, const std::array<Tick, 3>& centre, const Reach& reach, F&& f);
-    template <class F>
-    static void for_each_row(const Level& level, const Span& xs, const Span& ys, const Span& zs, F&& f);
     [[nodiscard]] Reach reach_of(const Ball& ball) const;
     [[nodiscard]] static Span span_of(const Level& level, std::size_t axis, Tick centre, std::uint64_t reach);
     void look_around(std::uint32_t k, BallSearcher& searcher) const;
@@ -247,12 +245,9 @@ void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
 
 template <class F>
 void Cells::for_each_row(const Level& level, const std::array<Tick, 3>& centre, const Reach& reach, F&& f) {
-    for_each_row(level, span_of(level, 0, centre[0], reach[0]), span_of(level, 1, centre[1], reach[1]),
-                 span_of(level, 2, centre[2], reach[2]), f);
-}
-
-template <class F>
-void Cells::for_each_row(const Level& level, const Span& xs, const Span& ys, const Span& zs, F&& f) {
+    const Span xs = span_of(level, 0, centre[0], reach[0]);
+    const Span ys = span_of(level, 1, centre[1], reach[1]);
+    const Span zs = span_of(level, 2, centre[2], reach[2]);
     const std::uint32_t end = xs.first + xs.count;
     for (std::uint32_t j = 0; j < zs.count; ++j) {
         for (std::uint32_t i = 0; i < ys.count; ++i) {
