@@ -209,11 +209,12 @@ void Cells::look_around(std::uint32_t k, BallSearcher& searcher) const {
     const std::uint32_t cell = home_cell(level, ball);
     searcher.cell_ = {starts_[cell], starts_[cell + 1]};
     Region region = region_of(searcher.cell_, ball.centre);
-    // In a grid that repeats, balls of one cell may be far apart; in a coarse one, what is seen from the origin on
-    // opposite sides may meet round the torus. Each ball is a cell of its own, and the origin, then.
-    constexpr Tick coarse = 1U << 28U;
+    // In a grid that repeats, balls of one cell may be far apart, and each is a cell of its own then. No two that are
+    // seen from the origin, at most a quarter of the torus away, may meet round its other side: the balls of all levels
+    // but the last are no wider than a quarter either.
+    constexpr std::uint64_t eighth = 1U << 29U;
     const auto is_wide = [&](std::size_t axis) {
-        return level.edge[axis] > coarse || region.reach[axis] > 2 * std::uint64_t{level.edge[axis]};
+        return region.reach[axis] > std::min(eighth, 2 * std::uint64_t{level.edge[axis]});
     };
     const bool is_alone = is_wide(0) || is_wide(1) || is_wide(2);
     if (is_alone) {

@@ -83,11 +83,10 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
     const auto left_in_step = static_cast<std::uint32_t>(left);
     disturbed_.clear();
     if (!kicked_ || !carry_on(window, left_in_step)) {
-        if (crowding_ == 0) crowding_ = even_crowding(census);
         const double way = (census.typical_speed + length(state_.laws.gravity) * duration) * duration;
-        const std::uint32_t ahead = windows_worthwhile(census, way);
-        set_epoch(window, kicked_ ? left_in_step : ahead);
-        build(census, way, ahead);
+        windows_ahead_ = windows_worthwhile(census, way);
+        set_epoch(window, kicked_ ? left_in_step : windows_ahead_);
+        build(census, way);
     }
     epoch_valid_ = true;
     plan_pairs();
@@ -118,9 +117,12 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double wa
     constexpr double looked_at = 8;
     constexpr double planned = 0.2; // anew in every step if bodies are kicked
     const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
+    // The crowding is known from the last lists, and as far as they reached: one window at first.
+    constexpr std::uint32_t growth = 2;
+    const std::uint32_t most = std::clamp(growth * windows_ahead_, 1U, Calendar::most_windows);
     double best = infinite;
     std::uint32_t windows = 1;
-    for (std::uint32_t k = 1; k <= Calendar::most_windows; ++k) {
+    for (std::uint32_t k = 1; k <= most; ++k) {
         const double reach = 2 * (census.mean_radius + way * (k + spare_windows()));
         const double pairs = crowding_ * reach * reach * reach;
         const double cost = (fixed + pairs) / k + per_window * pairs;
@@ -136,18 +138,6 @@ template <class Real>
 double Vicinity<Real>::spare_windows() const {
     constexpr double per_turn = 3;
     return std::min(1.0, per_turn * turning_);
-}
-
-/// Pairs per body and cube of their reach, 1/m^3, of bodies spread evenly over where they are.
-template <class Real>
-double Vicinity<Real>::even_crowding(const Census& census) const {
-    const auto side = [&](std::int64_t low, std::int64_t high) {
-        return metres_between(low, high, state_.resolution) + 2 * census.mean_radius;
-    };
-    const double volume =
-        side(census.low.x, census.high.x) * side(census.low.y, census.high.y) * side(census.low.z, census.high.z);
-    constexpr double half_sphere = 2.0 / 3 * 3.141592653589793;
-    return volume > 0 ? half_sphere * static_cast<double>(census.moving) / volume : 0;
 }
 
 /// Takes new tracks with the old lists; false if so many bodies have no room that the lists had better be built anew.
@@ -175,10 +165,10 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
 }
 
 template <class Real>
-void Vicinity<Real>::build(const Census& census, double way, std::uint32_t windows_ahead) {
+void Vicinity<Real>::build(const Census& census, double way) {
     const std::size_t bodies = state_.bodies.size();
     exits_.clear();
-    const double windows = windows_ahead + spare_windows();
+    const double windows = windows_ahead_ + spare_windows();
     horizon_ = length_ * windows;
     typical_room_ = way * windows;
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);

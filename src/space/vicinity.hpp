@@ -130,9 +130,8 @@ private:
     void set_epoch(const Window& window, std::uint32_t windows);
     [[nodiscard]] std::uint32_t windows_worthwhile(const Census& census, double way) const;
     [[nodiscard]] double spare_windows() const;
-    [[nodiscard]] double even_crowding(const Census& census) const;
     [[nodiscard]] bool carry_on(const Window& window, std::uint32_t windows);
-    void build(const Census& census, double way, std::uint32_t windows_ahead);
+    void build(const Census& census, double way);
     void plan_pairs();
     void collect_due();
     void renew_disturbed();
@@ -177,13 +176,14 @@ private:
     Ticks ticks_;
     TrackScale scale_{};
     Neighbours neighbours_;
-    double typical_room_ = 0;  ///< m
-    double typical_size_ = 0;  ///< m, of a cover
-    double reach_margin_ = 0;  ///< m, added to radii: more than all roundings of tracks
-    double longest_reach_ = 0; ///< m, of tracks
-    double horizon_ = 0;       ///< s that covers are meant to do for
-    double crowding_ = 0;      ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
-    double turning_ = 0.1;     ///< part of the bodies that end a window on a new path, of late; first a guess
+    double typical_room_ = 0;         ///< m
+    double typical_size_ = 0;         ///< m, of a cover
+    double reach_margin_ = 0;         ///< m, added to radii: more than all roundings of tracks
+    double longest_reach_ = 0;        ///< m, of tracks
+    double horizon_ = 0;              ///< s that covers are meant to do for
+    double crowding_ = 0;             ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
+    double turning_ = 0.1;            ///< part of the bodies that end a window on a new path, of late; first a guess
+    std::uint32_t windows_ahead_ = 0; ///< that the lists were built for
 
     // The epoch.
     bool epoch_valid_ = false;

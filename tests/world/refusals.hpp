@@ -32,6 +32,10 @@ inline const char* name_of(Precision precision) {
 class BothPrecisions : public ::testing::TestWithParam<Precision> {
 protected:
     [[nodiscard]] static bool is_single() { return GetParam() == Precision::single_precision; }
+    [[nodiscard]] static World open_world() { return World({.precision = GetParam()}); }
+    [[nodiscard]] static World world_with_floor(double gravity = -10) {
+        return World({.gravity = {0, 0, gravity}, .region = std::vector<Plane>{{}}, .precision = GetParam()});
+    }
 };
 
 inline std::string precision_name(const ::testing::TestParamInfo<Precision>& info) { return name_of(info.param); }
