@@ -245,9 +245,9 @@ void Workshop<Real>::put_out(Outturn& outturn) {
 template <class Real>
 void Workshop<Real>::prefetch_bodies(std::span<const Index> bodies) const {
     for (const Index body : bodies) {
-        __builtin_prefetch(&state_->bodies.motion[body]);
-        __builtin_prefetch(&state_->bodies.trait[body]);
-        vicinity_->prefetch(body);
+        prefetch(&state_->bodies.motion[body]);
+        prefetch(&state_->bodies.trait[body]);
+        vicinity_->prefetch_body(body);
     }
 }
 

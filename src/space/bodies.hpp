@@ -3,6 +3,7 @@
 #pragma once
 
 #include "space/motion.hpp"
+#include "space/prefetch.hpp"
 
 #include <carom/body.hpp>
 
@@ -83,14 +84,6 @@ struct Trait {
     std::uint32_t material = 0;
     std::uint32_t slot = 0;
 };
-
-/// To be called in a loop over an array with much work per element: asks for the element that is some turns away. Such
-/// a loop alone keeps too few of them on the way.
-template <class T>
-void prefetch_ahead(const T* element) {
-    constexpr int turns = 16;
-    __builtin_prefetch(element + turns);
-}
 
 /// A slot of the table of ids.
 struct Slot {

@@ -294,8 +294,8 @@ void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, s
     for (const Level& level : levels_) {
         if (level.population + level.late == 0) continue;
         for_each_row(level, ball.centre, reach, [&](const Run& row) {
-            __builtin_prefetch(starts_.data() + row.from);
-            __builtin_prefetch(late_heads_.data() + row.from);
+            prefetch(starts_.data() + row.from);
+            prefetch(late_heads_.data() + row.from);
             runs.push_back(row);
         });
     }

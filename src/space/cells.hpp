@@ -99,7 +99,6 @@ public:
         return (place & late_bit) != 0 ? late_[place & ~late_bit].ball : sorted_ball(place);
     }
     [[nodiscard]] const TickScale& scale() const { return scale_; }
-    void prefetch(Index body) const { __builtin_prefetch(&place_[body]); }
     /// Balls that were registered beside the sorted ones since build().
     [[nodiscard]] std::size_t late() const { return late_.size(); }
 
@@ -194,11 +193,11 @@ private:
         return {x_.data(), y_.data(), z_.data(), radius_.data(), body_.data(), scale_};
     }
     void prefetch_sorted(std::uint32_t place) const {
-        __builtin_prefetch(x_.data() + place);
-        __builtin_prefetch(y_.data() + place);
-        __builtin_prefetch(z_.data() + place);
-        __builtin_prefetch(radius_.data() + place);
-        __builtin_prefetch(body_.data() + place);
+        prefetch(x_.data() + place);
+        prefetch(y_.data() + place);
+        prefetch(z_.data() + place);
+        prefetch(radius_.data() + place);
+        prefetch(body_.data() + place);
     }
 
     TickScale scale_{};
@@ -290,7 +289,7 @@ void Cells::for_each_meeting(const Ball& ball, F&& f) const {
     for (const Level& level : levels_) {
         if (level.population + level.late == 0) continue;
         for_each_row(level, ball.centre, reach, [&](const Run& row) {
-            __builtin_prefetch(starts_.data() + row.from);
+            prefetch(starts_.data() + row.from);
             rows[count++] = row;
             if (count == most) scan_all();
         });

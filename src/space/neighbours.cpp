@@ -6,10 +6,11 @@
 namespace carom::core {
 
 void Neighbours::start_lists(std::size_t bodies) {
-    first_.assign(bodies, nothing);
-    newest_link_.assign(bodies, nothing);
+    known_.assign(bodies, {});
     links_.clear();
-    start_extensions();
+    extending_ = false;
+    extended_.clear();
+    extensions_from_ = 0;
     for (Part& part : parts_) part.used = 0;
 }
 
@@ -20,27 +21,32 @@ void Neighbours::make_list(Part& part, std::uint32_t number, std::size_t k) {
     cells_.find_neighbours(static_cast<std::uint32_t>(k), part.searcher, part.lists, part.used);
     if (part.used > place_mask) throw std::bad_alloc();
     part.lists[place] = static_cast<Index>(part.used - place - 1);
-    first_[cells_.spatial_order()[k]] = number << place_bits | static_cast<std::uint32_t>(place);
+    known_[cells_.spatial_order()[k]].list = number << place_bits | static_cast<std::uint32_t>(place);
 }
 
 std::size_t Neighbours::found() const {
     std::size_t sum = 0;
     for (const Part& part : parts_) sum += part.used;
-    return sum - std::min(sum, first_.size());
+    return sum - std::min(sum, known_.size());
 }
 
 void Neighbours::drop_extensions() {
+    if (!extending_) return;
+    extending_ = false;
     cells_.undo(extensions_from_);
-    for (; links_.size() > links_before_; links_.pop_back()) newest_link_[links_.back().body] = links_.back().next;
+    for (; !extended_.empty(); extended_.pop_back(), links_.pop_back()) {
+        known_[extended_.back()].newest_link = links_.back().next;
+    }
 }
 
 void Neighbours::link(Index body, Index other) {
-    links_.push_back({other, newest_link_[body], body});
-    newest_link_[body] = static_cast<std::uint32_t>(links_.size() - 1);
+    if (extending_) extended_.push_back(body);
+    links_.push_back({other, known_[body].newest_link});
+    known_[body].newest_link = static_cast<std::uint32_t>(links_.size() - 1);
 }
 
 bool Neighbours::is_linked(Index body, Index other) const {
-    for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) {
+    for (std::uint32_t k = known_[body].newest_link; k != nothing; k = links_[k].next) {
         if (links_[k].other == other) return true;
     }
     return false;

@@ -36,8 +36,7 @@ public:
     /// Replaces the cover of a body, which is without neighbours until link_all().
     void replace_cover(Index body, const Ball& cover) {
         cells_.update(body, cover);
-        first_[body] = nothing;
-        newest_link_[body] = nothing;
+        known_[body] = {};
     }
     /// Links a body and all whose covers meet its own.
     template <class Predicate>
@@ -47,14 +46,13 @@ public:
     /// Takes a body's cover away, and its neighbours.
     void uncover(Index body) {
         cells_.remove(body);
-        first_[body] = nothing;
-        newest_link_[body] = nothing;
+        known_[body] = {};
     }
 
     /// From here on covers are only extended, until drop_extensions().
     void start_extensions() {
         extensions_from_ = cells_.late();
-        links_before_ = links_.size();
+        extending_ = true;
     }
     /// Covers a body with one more ball for a while.
     template <class Predicate>
@@ -79,31 +77,30 @@ public:
 
     /// The part of a body's neighbours that lies together; it may be read up to simd_padding elements behind its end.
     [[nodiscard]] std::span<const Index> list_of(Index body) const {
-        const std::uint32_t first = first_[body];
-        if (first == nothing) return {};
-        const Index* const list = parts_[first >> place_bits].lists.data() + (first & place_mask);
+        const std::uint32_t place = known_[body].list;
+        if (place == nothing) return {};
+        const Index* const list = list_at(place);
         return {list + 1, list[0]};
     }
     /// Calls f(other) for the others, once or more often.
     template <class F>
     void for_each_link(Index body, F&& f) const {
-        for (std::uint32_t k = newest_link_[body]; k != nothing; k = links_[k].next) f(links_[k].other);
+        for (std::uint32_t k = known_[body].newest_link; k != nothing; k = links_[k].next) f(links_[k].other);
     }
 
     /// Asks for the memory that covers() and for_each() will need.
-    void prefetch(Index body) const {
-        __builtin_prefetch(&first_[body]);
-        __builtin_prefetch(&newest_link_[body]);
-        cells_.prefetch(body);
+    void prefetch_body(Index body) const {
+        prefetch(&known_[body]);
     }
     /// Then, for that of its list.
     void prefetch_list(Index body) const {
-        const std::uint32_t first = first_[body];
-        if (first == nothing) return;
-        const Index* const list = parts_[first >> place_bits].lists.data() + (first & place_mask);
+        const Known& known = known_[body];
+        if (known.newest_link != nothing) prefetch(&links_[known.newest_link]);
+        if (known.list == nothing) return;
+        const Index* const list = list_at(known.list);
         constexpr std::size_t line = 16;
-        __builtin_prefetch(list);
-        __builtin_prefetch(list + line);
+        prefetch(list);
+        prefetch(list + line);
     }
 
     /// So many covers were replaced that searching among the outdated ones costs more than building anew.
@@ -120,11 +117,18 @@ private:
     static constexpr std::uint32_t place_mask = (1U << place_bits) - 1;
     static_assert(most_parts <= 1U << (32 - place_bits));
 
+    /// Where a body's neighbours are.
+    struct Known {
+        std::uint32_t list = nothing;        ///< of build(), or nothing once its cover was replaced
+        std::uint32_t newest_link = nothing; ///< of those that came later
+    };
     struct Link {
         Index other = no_index;
         std::uint32_t next = nothing;
-        Index body = no_index; ///< whose link it is
     };
+    [[nodiscard]] const Index* list_at(std::uint32_t place) const {
+        return parts_[place >> place_bits].lists.data() + (place & place_mask);
+    }
     struct Part {
         std::vector<Index> lists;
         std::size_t used = 0;
@@ -147,7 +151,7 @@ private:
     void link_to(Index body, const Ball& cover, Predicate&& looks_up) {
         searcher_.start();
         cells_.find_meeting(cover, body, searcher_, meeting_);
-        for (const Index other : meeting_) __builtin_prefetch(&newest_link_[other]);
+        for (const Index other : meeting_) prefetch(&known_[other]);
         for (const Index other : meeting_) {
             link(body, other);
             if (looks_up(other) && !is_linked(other, body)) link(other, body);
@@ -158,11 +162,11 @@ private:
 
     Cells cells_;
     std::array<Part, most_parts> parts_;
-    std::vector<std::uint32_t> first_;       ///< per body: its list of build(), or nothing once its cover was replaced
-    std::vector<std::uint32_t> newest_link_; ///< per body: head of its later neighbours
+    std::vector<Known> known_; ///< per body
     std::vector<Link> links_;
+    bool extending_ = false;
     std::size_t extensions_from_ = 0; ///< in the cells
-    std::size_t links_before_ = 0;    ///< the extensions
+    std::vector<Index> extended_;     ///< whose the links are that came since
     BallSearcher searcher_;           ///< of link_to()
     std::vector<Index> meeting_;
 };

@@ -121,12 +121,11 @@ struct TrackWords {
     std::array<V, 3> start;
     V reach;
     std::array<V, 3> speed;
-    V bend;
 };
 
 /// Turns rows of four into columns, in each block of four lanes.
 template <class D, class V = hn::Vec<D>>
-HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
+HWY_INLINE HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
     const hn::RepartitionToWide<D> pairs;
     const auto ab = hn::BitCast(pairs, hn::InterleaveLower(floats, a, b));
     const auto cd = hn::BitCast(pairs, hn::InterleaveLower(floats, c, d));
@@ -141,10 +140,9 @@ HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
 /// The tracks of as many bodies of a list as a vector has lanes; the last one again behind the list's end. Whole tracks
 /// are loaded and transposed, which is faster than gathering them word by word.
 template <class D>
-HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const Index* bodies, std::size_t count) {
+HWY_INLINE HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const Index* bodies, std::size_t count) {
     constexpr std::size_t words = sizeof(Track) / sizeof(float);
-    static_assert(words == 8 && offsetof(Track, reach) == 12 && offsetof(Track, speed) == 16 &&
-                  offsetof(Track, bend) == 28);
+    static_assert(words == 8 && offsetof(Track, reach) == 12 && offsetof(Track, speed) == 16);
     const auto half_track = [&](std::size_t k, std::size_t half) HWY_ATTR {
         const auto at = [&](std::size_t lane) {
             return tracks + words * std::size_t{bodies[std::min(lane, count - 1)]} + 4 * half;
@@ -165,9 +163,9 @@ HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const
     auto u = half_track(0, 1);
     auto v = half_track(1, 1);
     auto w = half_track(2, 1);
-    auto bend = half_track(3, 1);
-    transpose(floats, u, v, w, bend);
-    return {{x, y, z}, reach, {u, v, w}, bend};
+    auto room = half_track(3, 1);
+    transpose(floats, u, v, w, room);
+    return {{x, y, z}, reach, {u, v, w}};
 }
 
 std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Track& track, const Index* bodies,
@@ -197,7 +195,7 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto p1 = place(1, w1);
         const auto p2 = place(2, w2);
         const auto zero = hn::Zero(floats);
-        const auto reach = hn::Add(other.reach, hn::Set(floats, track.reach));
+        const auto reach = hn::Add(hn::Abs(other.reach), hn::Set(floats, std::abs(track.reach)));
         const auto reach_squared = hn::Mul(reach, reach);
         const auto dot = [&](auto a0, auto a1, auto a2, auto b0, auto b1, auto b2)
                              HWY_ATTR { return hn::Add(hn::Add(hn::Mul(a0, b0), hn::Mul(a1, b1)), hn::Mul(a2, b2)); };
@@ -205,10 +203,10 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto closing = hn::Neg(dot(p0, p1, p2, w0, w1, w2));
         const auto speed = dot(w0, w1, w2, w0, w1, w2);
         const auto closing_squared = hn::Mul(closing, closing);
-        const auto bend = hn::Add(other.bend, hn::Set(floats, track.bend));
+        const auto least_reach = hn::Min(other.reach, hn::Set(floats, track.reach));
         const auto is_inside = hn::Le(outside, zero);
         const auto tolerance = hn::Set(floats, scale.tolerance * scale.tolerance);
-        const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Eq(bend, zero)),
+        const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Gt(least_reach, zero)),
                                    hn::Gt(closing_squared, hn::Mul(speed, tolerance)));
         const auto root = hn::Sub(closing_squared, hn::Mul(speed, outside));
         const auto passes = hn::Or(hn::Le(closing, zero), hn::Lt(root, zero));

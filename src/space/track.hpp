@@ -7,6 +7,7 @@
 
 #include "space/ball.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,12 @@ namespace carom::core {
 
 struct alignas(32) Track {
     std::array<Tick, 3> start{};  ///< where the body would have been at the start of the epoch
-    float reach = 0;              ///< m, its radius, and what keeps the test conservative; infinite: always may meet
+    /// m, its radius, and what keeps the test conservative; infinite: always may meet. Negative: the body is not in
+    /// free flight, and anywhere so far from its track.
+    float reach = 0;
     std::array<float, 3> speed{}; ///< m/s
-    float bend = 0;               ///< more than 0: not in free flight, and anywhere within `reach` of its track
+    /// m that the body may still leave its track by: how much it had at the epoch's start, had it always been on it.
+    float room = 0;
 };
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
@@ -33,14 +37,14 @@ inline float first_meeting(const Track& a, const Track& b, float from, float to,
     const std::array<float, 3> p{tick_distance(a.start[0], b.start[0], scale.metres[0]) + w[0] * from,
                                  tick_distance(a.start[1], b.start[1], scale.metres[1]) + w[1] * from,
                                  tick_distance(a.start[2], b.start[2], scale.metres[2]) + w[2] * from};
-    const float reach = a.reach + b.reach;
+    const float reach = std::abs(a.reach) + std::abs(b.reach);
     const float outside = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - reach * reach;
     const float closing = -(p[0] * w[0] + p[1] * w[1] + p[2] * w[2]);
     const float speed = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     if (outside <= 0) {
         // What has met and parts for good does not meet again.
-        const bool parts =
-            closing < 0 && a.bend + b.bend == 0 && closing * closing > speed * (scale.tolerance * scale.tolerance);
+        const bool parts = closing < 0 && std::min(a.reach, b.reach) > 0 &&
+                           closing * closing > speed * (scale.tolerance * scale.tolerance);
         return parts ? never : from;
     }
     const float root = closing * closing - speed * outside;

@@ -180,7 +180,6 @@ void Vicinity<Real>::build(const Census& census, double way) {
     scale_.tolerance = static_cast<float>(4 * reach_margin_);
     // An eighth of the torus, where something has its images.
     longest_reach_ = state_.bounds.any_periodic() ? 0x1p29 * std::min({x, y, z}) : infinite;
-    room_.resize(bodies);
     tracks_.resize(bodies);
     calendar_.clear();
     for_each_in_parts(*executor_, bodies, body_grain, [&](std::size_t part, std::size_t k) {
@@ -203,9 +202,9 @@ template <class Real>
 Ball Vicinity<Real>::first_cover(Index body) const {
     const Track& track = tracks_[body];
     const bool is_free = state_.bodies.kind[body] == Kind::free;
-    if (!std::isinf(track.reach)) return {track.start, track.reach + (is_free ? room_[body] : 0)};
+    if (!std::isinf(track.reach)) return {track.start, std::abs(track.reach) + (is_free ? track.room : 0)};
     const double radius = static_cast<double>(state_.bodies.motion[body].radius) + reach_margin_;
-    return ticks_.ball(state_.bodies.motion[body].x, {}, room_[body] < 0 ? radius : radius + fall_);
+    return ticks_.ball(state_.bodies.motion[body].x, {}, tracks_[body].room < 0 ? radius : radius + fall_);
 }
 
 /// Plans all pairs, each once.
@@ -254,7 +253,7 @@ void Vicinity<Real>::renew_exits() {
     for (const Index body : exits_) {
         if (room_at(body, window_end_) < 0) {
             const float room = take_room(body, window_start_);
-            if (room_[body] < 0) {
+            if (tracks_[body].room < 0) {
                 neighbours_.uncover(body);
                 fast_.push_back(body);
             } else {
@@ -280,8 +279,8 @@ template <class Real>
 void Vicinity<Real>::charge_held() {
     for (const auto& [slot, hold] : state_.bodies.holds) {
         const Index body = state_.bodies.slots[slot].index;
-        room_[body] -= static_cast<float>(held_way(state_.bodies.motion[body], hold.acceleration));
-        if (room_[body] < 0) exits_.push_back(body);
+        tracks_[body].room -= static_cast<float>(held_way(state_.bodies.motion[body], hold.acceleration));
+        if (tracks_[body].room < 0) exits_.push_back(body);
     }
 }
 
@@ -307,8 +306,8 @@ void Vicinity<Real>::collect_due() {
     for_each_in_parts(*executor_, due_.size(), grain, [&](std::size_t part, std::size_t k) {
         constexpr std::size_t ahead = 12;
         const Pair& soon = due_[std::min(k + ahead, due_.size() - 1)];
-        __builtin_prefetch(&tracks_[soon.first]);
-        __builtin_prefetch(&tracks_[soon.second]);
+        prefetch(&tracks_[soon.first]);
+        prefetch(&tracks_[soon.second]);
         const auto [a, b] = due_[k];
         const float time = first_meeting(tracks_[a], tracks_[b], window_start_, epoch_end(), scale_);
         if (time == never) return;
@@ -368,7 +367,7 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
     constexpr std::size_t grain = 512;
     for_each_in_parts(*executor_, turned.size(), grain, [&](std::size_t, std::size_t k) {
         constexpr std::size_t ahead = 8;
-        prefetch(turned[std::min(k + ahead, turned.size() - 1)].body);
+        prefetch_body(turned[std::min(k + ahead, turned.size() - 1)].body);
         const TurnedBody& t = turned[k];
         if (state_.bodies.kind[t.body] == Kind::free) {
             put_track(t.body, t.track, t.room, window_end_);
@@ -383,8 +382,8 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
         const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)].body; };
         const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack * length_);
         for (std::size_t k = begin; k < end; ++k) {
-            prefetch(soon(k + 3 * ahead));
-            __builtin_prefetch(&state_.bodies.motion[soon(k + 2 * ahead)]);
+            prefetch_body(soon(k + 3 * ahead));
+            prefetch(&state_.bodies.motion[soon(k + 2 * ahead)]);
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
             plan_meetings(part, turned[k].body, from, window_ + 1);
@@ -416,15 +415,13 @@ Track Vicinity<Real>::track_of(const Motion<Real>& m, Kind kind, double room) co
     const double reach =
         static_cast<double>(m.radius) * (1 + rounding) + reach_margin_ + (is_free ? sag_ : room + fall_);
     Track track;
-    track.bend = is_free && sag_ == 0 ? 0 : 1;
     if (!suits_tracks(length(v), reach)) {
         track.start = ticks_.of(m.x);
-        track.reach = std::numeric_limits<float>::infinity();
-        track.bend = 1;
+        track.reach = -std::numeric_limits<float>::infinity();
         return track;
     }
     track.start = ticks_.of(m.x, is_free ? v * -now + g * (-0.5 * now * now) : Vec3{});
-    track.reach = static_cast<float>(reach);
+    track.reach = static_cast<float>(is_free && sag_ == 0 ? reach : -reach);
     track.speed = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     return track;
 }
@@ -442,18 +439,18 @@ void Vicinity<Real>::take_track(Index body, float room, float now) {
 /// A body goes along a track, with so much room at `now`.
 template <class Real>
 void Vicinity<Real>::put_track(Index body, const Track& track, float room, float now) {
-    tracks_[body] = track;
+    Track& own = tracks_[body] = track;
     if (state_.bodies.kind[body] == Kind::fixed) {
-        room_[body] = std::numeric_limits<float>::infinity();
+        own.room = std::numeric_limits<float>::infinity();
     } else if (std::isinf(track.reach)) {
-        room_[body] = -1;
+        own.room = -1;
     } else {
-        room_[body] = room - static_cast<float>(sag_) + speed_of(track) * now;
+        own.room = room - static_cast<float>(sag_) + speed_of(track) * now;
     }
 }
 
 /// Takes the track and the room of a body that is to have a new cover, and returns how much room (m) that has to have.
-/// room_ is negative for a body that is too fast for one.
+/// That of its track is negative if it is too fast for a cover.
 template <class Real>
 float Vicinity<Real>::take_room(Index body, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
@@ -470,11 +467,10 @@ float Vicinity<Real>::take_room(Index body, float now) {
     constexpr double spare = 1.05;
     const double room = std::clamp(spare * speed * horizon_, typical_room_, most_rooms * typical_room_);
     take_track(body, static_cast<float>(room), now);
-    if (needed > room || room_[body] < 0) {
-        room_[body] = -1;
-        tracks_[body] = {.start = ticks_.of(m.x), .reach = std::numeric_limits<float>::infinity(), .bend = 1};
+    if (needed > room || tracks_[body].room < 0) {
+        tracks_[body] = {.start = ticks_.of(m.x), .reach = -std::numeric_limits<float>::infinity(), .room = -1};
     } else if (is_held) {
-        room_[body] -= static_cast<float>(needed);
+        tracks_[body].room -= static_cast<float>(needed);
     }
     return static_cast<float>(room);
 }
@@ -526,7 +522,7 @@ void Vicinity<Real>::plan_meetings(std::size_t part, Index body, float from, std
 template <class Real>
 void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest) {
     // Whoever is too fast for a track looks for others itself, in each window.
-    if (room_[b] < 0 && room_[a] >= 0) return;
+    if (tracks_[b].room < 0 && tracks_[a].room >= 0) return;
     const std::uint32_t window = window_of(static_cast<double>(time), earliest);
     if (window < windows_) calendar_.add_pair(part, window, a, b);
 }
@@ -534,7 +530,7 @@ void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float time, s
 template <class Real>
 void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earliest) {
     if (state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
-    const auto room = static_cast<double>(room_[body]);
+    const auto room = static_cast<double>(tracks_[body].room);
     const auto speed = static_cast<double>(speed_of(tracks_[body]));
     if (room < 0) {
         calendar_.add_exit(part, earliest, body);

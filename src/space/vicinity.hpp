@@ -70,7 +70,7 @@ public:
     /// One of the candidates does not meet in this window.
     void defer(std::size_t part, const Pair& pair) {
         // Whoever has no room looks for others itself, in each window.
-        if (window_ + 1 >= windows_ || room_[pair.first] < 0 || room_[pair.second] < 0) return;
+        if (window_ + 1 >= windows_ || tracks_[pair.first].room < 0 || tracks_[pair.second].room < 0) return;
         calendar_.add_pair(part, window_ + 1, pair.first, pair.second);
     }
     /// Bodies that may touch a wall in the window unless something strikes them.
@@ -96,14 +96,13 @@ public:
         neighbours_.for_each(body, f);
     }
     /// Asks for the memory that looking for a body's neighbours will need: three stages, some time apart.
-    void prefetch(Index body) const {
-        __builtin_prefetch(&tracks_[body]);
-        __builtin_prefetch(&room_[body]);
-        neighbours_.prefetch(body);
+    void prefetch_body(Index body) const {
+        prefetch(&tracks_[body]);
+        neighbours_.prefetch_body(body);
     }
     void prefetch_list(Index body) const { neighbours_.prefetch_list(body); }
     void prefetch_tracks(Index body) const {
-        for (const Index other : neighbours_.list_of(body)) __builtin_prefetch(&tracks_[other]);
+        for (const Index other : neighbours_.list_of(body)) prefetch(&tracks_[other]);
     }
 
     /// m, what is left of a body's room when it ends the window on a new path; negative if it leaves its cover.
@@ -143,7 +142,9 @@ private:
     [[nodiscard]] Track track_of(const Motion<Real>& motion, Kind kind, double room) const;
     void take_track(Index body, float room, float now);
     void put_track(Index body, const Track& track, float room, float now);
-    [[nodiscard]] float room_at(Index body, float now) const { return room_[body] - speed_of(tracks_[body]) * now; }
+    [[nodiscard]] float room_at(Index body, float now) const {
+        return tracks_[body].room - speed_of(tracks_[body]) * now;
+    }
     float take_room(Index body, float now);
     [[nodiscard]] Ball cover_at(Index body, float room, float now) const;
     [[nodiscard]] Ball first_cover(Index body) const;
@@ -197,7 +198,6 @@ private:
     double fall_ = 0;           ///< m that the frame falls during the epoch
     double sag_ = 0;            ///< m that a free body falls in the frame
     std::vector<Track> tracks_;
-    std::vector<float> room_; ///< m, per body: its room at the epoch's start, had it always been on its track
     Calendar calendar_;
 
     // The window.

@@ -133,7 +133,8 @@ TEST_F(SimdSearch, TracksAreFoundAlike) {
         tracks[k] = {.start = {tick(), tick(), tick()},
                      .reach = k % 19 == 0 ? std::numeric_limits<float>::infinity() : within(0, 0.3),
                      .speed = {within(-2, 2), within(-2, 2), within(-2, 2)},
-                     .bend = k % 5 == 0 ? 1.0F : 0.0F};
+                     .room = within(-1, 1)};
+        if (k % 5 == 0) tracks[k].reach *= -1;
     }
     tracks[7].speed = {1e30F, 1e30F, -1e30F};
     const TrackScale scale{{1e-3F, 1e-3F, 2e-3F}, 1e-3F};
