@@ -51,6 +51,9 @@ Index Workshop<Real>::admit(Index body, bool as_own) {
     bodies.motion.push_back(from.motion[body]);
     bodies.kind.push_back(from.kind[body]);
     bodies.trait.push_back(from.trait[body]);
+    bodies.restitution.append(from.restitution[body], place);
+    bodies.friction.append(from.friction[body], place);
+    bodies.material.append(from.material[body], place);
     bodies.course.push_back({.flight = recent_flight(from, slot)});
     if (from.kind[body] == Kind::held) bodies.holds[slot] = hold_of(from, body);
     guests_.push_back({.body = body, .is_own = as_own});

@@ -2,6 +2,8 @@
 /// Storage of all bodies: arrays in spatial order, and the table of ids that finds them there.
 #pragma once
 
+#include "space/column.hpp"
+#include "space/line_vector.hpp"
 #include "space/motion.hpp"
 #include "space/prefetch.hpp"
 
@@ -75,13 +77,10 @@ struct Hold {
     bool sticks = false;           ///< friction outweighs what pulls along the supports
 };
 
-/// What a body is beside its motion.
+/// What an impact needs to know of a body beside its motion and its material.
 template <class Real>
 struct Trait {
     Real mass = 0; ///< kg; infinity for static bodies
-    Real restitution = 0;
-    Real friction = 0;
-    std::uint32_t material = 0;
     std::uint32_t slot = 0;
 };
 
@@ -94,11 +93,14 @@ struct Slot {
 /// All bodies of a world, one element of each array per body.
 template <class Real>
 struct Bodies {
-    std::vector<Motion<Real>> motion;
+    LineVector<Motion<Real>> motion;
     std::vector<Kind> kind; ///< on its own: predictions read it of every neighbour, and it stays in the cache
-    std::vector<Trait<Real>> trait;
-    std::vector<std::uint64_t> user_data; ///< empty as long as all are 0
-    std::vector<Int3> previous;           ///< units, at the start of the last step; in use only if `interpolating`
+    LineVector<Trait<Real>> trait;
+    Column<Real> restitution;
+    Column<Real> friction;
+    Column<std::uint32_t> material;
+    Column<std::uint64_t> user_data;
+    std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
@@ -115,8 +117,17 @@ struct Bodies {
         f(motion);
         f(kind);
         f(trait);
-        if (!user_data.empty()) f(user_data);
         if (interpolating) f(previous);
+        for_each_column([&f](auto& column) {
+            if (!column.array().empty()) f(column.array());
+        });
+    }
+    template <class F>
+    void for_each_column(F&& f) {
+        f(restitution);
+        f(friction);
+        f(material);
+        f(user_data);
     }
 };
 

@@ -110,7 +110,7 @@ std::uint32_t Cells::home_cell(const Level& level, const Ball& ball) {
 void Cells::start_sorting(std::size_t bodies) {
     const std::size_t cell_count = levels_.back().first_cell + 1;
     starts_.assign(cell_count + 1, 0);
-    late_heads_.assign(cell_count, nothing);
+    late_heads_.assign(late_group(static_cast<std::uint32_t>(cell_count)) + 1, nothing);
     place_.resize(bodies);
     body_.resize(bodies + simd_padding);
     x_.resize(bodies + simd_padding);
@@ -295,7 +295,7 @@ void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, s
         if (level.population + level.late == 0) continue;
         for_each_row(level, ball.centre, reach, [&](const Run& row) {
             prefetch(starts_.data() + row.from);
-            prefetch(late_heads_.data() + row.from);
+            prefetch(late_heads_.data() + late_group(row.from));
             runs.push_back(row);
         });
     }
@@ -355,16 +355,16 @@ void Cells::undo(std::size_t late) {
         const Late& last = late_.back();
         Level& level = levels_[level_of(last.ball)];
         --level.late;
-        late_heads_[home_cell(level, last.ball)] = last.next;
+        late_heads_[late_group(home_cell(level, last.ball))] = last.next;
     }
 }
 
 std::uint32_t Cells::add_late(Index body, const Ball& ball) {
     Level& level = levels_[level_of(ball)];
     ++level.late;
-    const std::uint32_t cell = home_cell(level, ball);
-    late_.push_back({ball, body, late_heads_[cell]});
-    return late_heads_[cell] = static_cast<std::uint32_t>(late_.size() - 1);
+    std::uint32_t& head = late_heads_[late_group(home_cell(level, ball))];
+    late_.push_back({ball, body, head});
+    return head = static_cast<std::uint32_t>(late_.size() - 1);
 }
 
 } // namespace carom::core

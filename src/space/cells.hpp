@@ -154,6 +154,8 @@ private:
         std::uint32_t next = nothing;
     };
 
+    /// Cells share lists of late balls, of which there are few, with the next ones along x: lists take little memory.
+    static std::uint32_t late_group(std::uint32_t cell) { return cell / 8; }
     [[nodiscard]] Ball sorted_ball(std::uint32_t place) const {
         return {{x_[place], y_[place], z_[place]}, radius_[place]};
     }
@@ -204,7 +206,7 @@ private:
     std::array<double, 3> ticks_per_metre_{};
     std::vector<Level> levels_;
     std::vector<std::uint32_t> starts_;     ///< per cell, where its balls begin in the sorted arrays; and their end
-    std::vector<std::uint32_t> late_heads_; ///< per cell, of the list of its late balls
+    std::vector<std::uint32_t> late_heads_; ///< per group of cells, of the list of its late balls
     // Sorted, and padding.
     std::vector<Tick> x_;
     std::vector<Tick> y_;
@@ -267,8 +269,8 @@ void Cells::scan_row(const Run& row, const Ball& ball, F& f) const {
 
 template <class F>
 void Cells::scan_late(const Run& row, const Ball& ball, F& f) const {
-    for (std::uint32_t c = row.from; c < row.to; ++c) {
-        for (std::uint32_t k = late_heads_[c]; k != nothing; k = late_[k].next) {
+    for (std::uint32_t group = late_group(row.from); group <= late_group(row.to - 1); ++group) {
+        for (std::uint32_t k = late_heads_[group]; k != nothing; k = late_[k].next) {
             if (balls_meet(ball, late_[k].ball, scale_)) f(late_[k].body);
         }
     }

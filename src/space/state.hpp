@@ -77,13 +77,13 @@ template <class Real>
 Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     const Bodies<Real>& bodies = state.bodies;
     for (const MaterialRule& rule : state.laws.rules) {
-        const bool straight = rule.a == bodies.trait[a].material && rule.b == bodies.trait[b].material;
-        const bool crossed = rule.a == bodies.trait[b].material && rule.b == bodies.trait[a].material;
+        const bool straight = rule.a == bodies.material[a] && rule.b == bodies.material[b];
+        const bool crossed = rule.a == bodies.material[b] && rule.b == bodies.material[a];
         if (straight || crossed) return {rule.restitution, rule.friction};
     }
-    const auto mu_a = static_cast<double>(bodies.trait[a].friction);
-    const auto mu_b = static_cast<double>(bodies.trait[b].friction);
-    return {static_cast<double>(std::max(bodies.trait[a].restitution, bodies.trait[b].restitution)),
+    const auto mu_a = static_cast<double>(bodies.friction[a]);
+    const auto mu_b = static_cast<double>(bodies.friction[b]);
+    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])),
             std::sqrt(mu_a * mu_b)};
 }
 
@@ -91,8 +91,8 @@ Encounter encounter_of(const State<Real>& state, Index a, Index b) {
 template <class Real>
 Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall& wall) {
     const Bodies<Real>& bodies = state.bodies;
-    return {wall.surface.restitution.value_or(static_cast<double>(bodies.trait[body].restitution)),
-            wall.surface.friction.value_or(static_cast<double>(bodies.trait[body].friction))};
+    return {wall.surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
+            wall.surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
 }
 
 /// What accelerates a body between impacts, m/s^2.

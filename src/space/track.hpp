@@ -13,7 +13,7 @@
 
 namespace carom::core {
 
-struct alignas(32) Track {
+struct Track {
     std::array<Tick, 3> start{};  ///< where the body would have been at the start of the epoch
     /// m, its radius, and what keeps the test conservative; infinite: always may meet. Negative: the body is not in
     /// free flight, and anywhere so far from its track.

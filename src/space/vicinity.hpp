@@ -197,7 +197,7 @@ private:
     Vec3 frame_{};              ///< m/s^2, the acceleration of the frame: gravity, or none where bodies are kicked
     double fall_ = 0;           ///< m that the frame falls during the epoch
     double sag_ = 0;            ///< m that a free body falls in the frame
-    std::vector<Track> tracks_;
+    LineVector<Track> tracks_;
     Calendar calendar_;
 
     // The window.

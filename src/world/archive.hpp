@@ -116,8 +116,8 @@ void transfer(Archive& archive, std::optional<T>& value) {
 }
 
 /// A list: its length, which cannot exceed the bytes that are left, and its elements.
-template <class Archive, class T>
-void transfer(Archive& archive, std::vector<T>& values) {
+template <class Archive, class T, class Allocator>
+void transfer(Archive& archive, std::vector<T, Allocator>& values) {
     std::uint64_t count = values.size();
     archive(count);
     if constexpr (Archive::reading) {

@@ -160,19 +160,20 @@ template <class Real>
 void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int3>& positions) {
     Bodies<Real>& bodies = state_.bodies;
     const Body standard;
+    const auto real = [](std::span<const double> column, std::size_t k, double value) {
+        return static_cast<Real>(element(column, k, value));
+    };
     for (std::size_t k = 0; k < positions.size(); ++k) {
+        const std::size_t place = bodies.size();
         const double mass = element(columns.mass, k, standard.mass);
         bodies.motion.push_back({positions[k], 0, rounded<Real>(element(columns.velocity, k, standard.velocity)),
-                                 static_cast<Real>(element(columns.radius, k, standard.radius))});
-        bodies.trait.push_back({.mass = static_cast<Real>(mass),
-                                .restitution = static_cast<Real>(element(columns.restitution, k, standard.restitution)),
-                                .friction = static_cast<Real>(element(columns.friction, k, standard.friction)),
-                                .material = element(columns.material, k, standard.material)});
+                                 real(columns.radius, k, standard.radius)});
+        bodies.trait.push_back({.mass = static_cast<Real>(mass)});
         bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
-        const std::uint64_t data = element(columns.user_data, k, standard.user_data);
-        // The body just added has none yet.
-        if (data != 0 && bodies.user_data.empty()) bodies.user_data.resize(size() - 1);
-        if (data != 0 || !bodies.user_data.empty()) bodies.user_data.push_back(data);
+        bodies.restitution.append(real(columns.restitution, k, standard.restitution), place);
+        bodies.friction.append(real(columns.friction, k, standard.friction), place);
+        bodies.material.append(element(columns.material, k, standard.material), place);
+        bodies.user_data.append(element(columns.user_data, k, standard.user_data), place);
         if (bodies.interpolating) bodies.previous.push_back(positions[k]);
     }
 }
@@ -260,10 +261,10 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
     fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.trait[i].mass); });
     fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
-    fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.trait[i].restitution); });
-    fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.trait[i].friction); });
-    fill(columns.material, [&](Index i) { return bodies.trait[i].material; });
-    fill(columns.user_data, [&](Index i) { return bodies.user_data.empty() ? 0 : bodies.user_data[i]; });
+    fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
+    fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
+    fill(columns.material, [&](Index i) { return bodies.material[i]; });
+    fill(columns.user_data, [&](Index i) { return bodies.user_data[i]; });
 }
 
 template <class Real>
@@ -338,13 +339,10 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
     };
     write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
     write(columns.mass, [&](Index i, double mass) { bodies.trait[i].mass = static_cast<Real>(mass); });
-    write(columns.restitution, [&](Index i, double e) { bodies.trait[i].restitution = static_cast<Real>(e); });
-    write(columns.friction, [&](Index i, double mu) { bodies.trait[i].friction = static_cast<Real>(mu); });
-    write(columns.material, [&](Index i, std::uint32_t key) { bodies.trait[i].material = key; });
-    write(columns.user_data, [&](Index i, std::uint64_t data) {
-        if (data != 0 && bodies.user_data.empty()) bodies.user_data.resize(size());
-        if (!bodies.user_data.empty()) bodies.user_data[i] = data;
-    });
+    write(columns.restitution, [&](Index i, double e) { bodies.restitution.set(i, static_cast<Real>(e), size()); });
+    write(columns.friction, [&](Index i, double mu) { bodies.friction.set(i, static_cast<Real>(mu), size()); });
+    write(columns.material, [&](Index i, std::uint32_t key) { bodies.material.set(i, key, size()); });
+    write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data.set(i, data, size()); });
 }
 
 template <class Real>

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 2;
+constexpr std::uint32_t snapshot_version = 3;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -113,7 +113,12 @@ void transfer(Archive& archive, Flight& flight) {
 
 template <class Archive, class Real>
 void transfer(Archive& archive, Trait<Real>& trait) {
-    archive(trait.mass, trait.restitution, trait.friction, trait.material, trait.slot);
+    archive(trait.mass, trait.slot);
+}
+
+template <class Archive, class T>
+void transfer(Archive& archive, Column<T>& column) {
+    column.transfer(archive);
 }
 
 template <class Archive>
@@ -237,8 +242,9 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.trait, b.user_data, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights,
-            state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+    archive(b.motion, b.kind, b.trait, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights, state_.books,
+            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+    b.for_each_column([&archive](auto& column) { archive(column); });
 }
 
 template <class Real>
@@ -254,6 +260,7 @@ std::vector<std::byte> Engine<Real>::save() const {
         if (slot.index != no_index) order.push_back(slot.index);
     }
     reorder(ordered, order);
+    ordered.for_each_column([](auto& column) { column.unite(); });
     self.transfer(body, ordered);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
@@ -288,8 +295,9 @@ template <class Real>
 bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const std::size_t expected_previous = b.interpolating ? size() : 0;
-    return b.kind.size() == size() && b.trait.size() == size() &&
-           (b.user_data.empty() || b.user_data.size() == size()) && b.previous.size() == expected_previous;
+    return b.kind.size() == size() && b.trait.size() == size() && b.previous.size() == expected_previous &&
+           b.restitution.is_sound(size()) && b.friction.is_sound(size()) && b.material.is_sound(size()) &&
+           b.user_data.is_sound(size());
 }
 
 template <class Real>
@@ -322,8 +330,8 @@ bool Engine<Real>::bodies_are_sound() const {
         }
         check_finite(velocity_of(m), "velocity", i);
         check_radius(static_cast<double>(m.radius), i);
-        check_fraction(static_cast<double>(trait.restitution), "restitution", i);
-        check_not_negative(static_cast<double>(trait.friction), "friction", i);
+        check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
+        check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
         const bool fixed = b.kind[i] == Kind::fixed;
         if (b.kind[i] > Kind::held || !(trait.mass > 0) || std::isinf(trait.mass) != fixed) return false;
         if (fixed && velocity_of(m) != Vec3{}) return false;
