@@ -291,7 +291,7 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
     const Turned<Real>& turned_a = turned_of(a);
     const Turned<Real>& turned_b = turned_of(b);
     if (turned_a.earlier == nowhere && turned_b.earlier == nowhere &&
-        !vicinity_.may_meet(turned_a.track, turned_b.track, std::max(turned_a.path.motion.t, turned_b.path.motion.t))) {
+        !vicinity_.may_meet(turned_a.track, turned_b.track, std::max(turned_a.motion.t, turned_b.motion.t))) {
         return false;
     }
     const auto for_each_leg = [this](const Member& member, auto&& f) {
@@ -300,8 +300,9 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
             return Path<Real>{&flown.motion, flown.acceleration, flown.kind, slot};
         };
         const Turned<Real>& last = turned_of(member);
-        if (f(path_of(last.path), window_.to)) return true;
-        double end = last.path.motion.t;
+        const Flown<Real> last_path = workshops_[member.part]->last_path(last);
+        if (f(path_of(last_path), window_.to)) return true;
+        double end = last.motion.t;
         const std::vector<Leg<Real>>& legs = workshops_[member.part]->legs;
         for (std::uint32_t k = last.earlier; k != nowhere; k = legs[k].earlier) {
             if (f(path_of(legs[k].path), end)) return true;
@@ -405,9 +406,7 @@ void IslandSolver<Real>::commit(Outcome& outcome) {
     write_down(outcome);
     turned_.clear();
     for (const Member& member : members_) {
-        if (member.turned == nowhere) continue;
-        const Turned<Real>& turned = turned_of(member);
-        turned_.push_back({member.body, turned.room, turned.track});
+        if (member.turned != nowhere) turned_.push_back(&turned_of(member));
     }
     vicinity_.settle(turned_);
 }
@@ -423,9 +422,9 @@ void IslandSolver<Real>::write_back() {
         const Member& member = members_[k];
         if (member.turned == nowhere) continue;
         const Turned<Real>& turned = turned_of(member);
-        bodies.motion[member.body] = turned.path.motion;
+        bodies.motion[member.body] = turned.motion;
         release(bodies, member.body);
-        bodies.kind[member.body] = turned.path.kind;
+        bodies.kind[member.body] = turned.kind;
         if (turned.hold != nowhere) {
             bodies.holds[bodies.trait[member.body].slot] = workshops_[member.part]->holds[turned.hold];
         }
@@ -443,9 +442,10 @@ void IslandSolver<Real>::remember_flights() {
     });
     for (const Member& member : members_) {
         if (member.turned == nowhere) continue;
-        const Flight& flight = turned_of(member).flight;
-        if (!is_recent(flight, window_.to, collapse_time)) continue;
-        bodies.recent_flights.push_back({bodies.trait[member.body].slot, flight});
+        const std::uint32_t flight = turned_of(member).flight;
+        if (flight == nowhere) continue;
+        bodies.recent_flights.push_back(
+            {bodies.trait[member.body].slot, workshops_[member.part]->flights[flight]});
     }
     sort_by_slot(bodies.recent_flights);
 }
@@ -468,8 +468,11 @@ void IslandSolver<Real>::write_down(Outcome& outcome) {
     std::sort(places_.begin(), places_.end());
     for (std::size_t k = 0; k < places_.size(); ++k) {
         constexpr std::size_t ahead = 8;
+        const Place& later = places_[std::min(k + 2 * ahead, places_.size() - 1)];
         const Place& soon = places_[std::min(k + ahead, places_.size() - 1)];
-        prefetch(&workshops_[soon.part]->log[soon.log].entry);
+        prefetch_object(&workshops_[later.part]->log[later.log]);
+        prefetch(&state_.bodies.slots[soon.ids.first]);
+        if (!soon.at_wall()) prefetch(&state_.bodies.slots[soon.ids.second]);
         const Occurrence& occurrence = workshops_[places_[k].part]->log[places_[k].log];
         state_.books.add(occurrence.entry);
         outcome.add(occurrence);

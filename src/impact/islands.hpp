@@ -125,7 +125,7 @@ private:
     std::vector<Index> roster_;
     std::vector<Event> island_events_;
     std::vector<std::uint32_t> pending_; ///< islands to run
-    std::vector<TurnedBody> turned_;
+    std::vector<const TurnedBody*> turned_;
 
     /// The place of an occurrence in the order of all.
     struct Place {
@@ -133,6 +133,7 @@ private:
         EventIds ids{};
         std::uint32_t part = 0;
         std::uint32_t log = 0;
+        [[nodiscard]] bool at_wall() const { return (ids.second & Event::wall_bit) != 0; }
         friend auto operator<=>(const Place&, const Place&) = default;
     };
     std::vector<Place> places_;

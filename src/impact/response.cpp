@@ -374,7 +374,7 @@ void Outcome::add(const Occurrence& occurrence) {
     if (!occurrence.is_impact) return;
     ++(occurrence.impact.face >= 0 ? face_impacts : impacts);
     tc_conversions += occurrence.is_converted ? 1 : 0;
-    if (record && occurrence.impact.impulse >= least_impulse) records.push_back(occurrence.impact);
+    if (record && occurrence.impact.impulse >= least_impulse) record(occurrence.impact);
 }
 
 template void execute(State<float>&, const Event&, Occurrence&);

@@ -5,11 +5,11 @@
 #include "impact/events.hpp"
 #include "impact/prediction.hpp"
 
-#include <vector>
+#include <functional>
 
 namespace carom::core {
 
-/// An impact with bodies by slot, lengths in m and positions in units: what is recorded while the engine runs.
+/// An impact with bodies by slot, lengths in m and positions in units: what a solver knows of it.
 struct ImpactRecord {
     double offset = 0; ///< s since the start of the step
     std::uint32_t a = 0;
@@ -31,14 +31,13 @@ struct Occurrence {
     bool is_converted = false; ///< the TC rule made it elastic
 };
 
-/// What the impacts of a step add up to, and where they are written down.
+/// What the impacts of a step add up to, and who writes them down.
 struct Outcome {
     std::uint64_t impacts = 0;
     std::uint64_t face_impacts = 0;
     std::uint64_t tc_conversions = 0;
-    bool record = true;
-    double least_impulse = 0; ///< N s
-    std::vector<ImpactRecord> records;
+    double least_impulse = 0; ///< N s, of what is recorded
+    std::function<void(const ImpactRecord&)> record;
 
     [[nodiscard]] std::uint64_t all_impacts() const { return impacts + face_impacts; }
     void add(const Occurrence& occurrence);

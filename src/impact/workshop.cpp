@@ -20,6 +20,7 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     log_ids.clear();
     turned.clear();
     legs.clear();
+    flights.clear();
     holds.clear();
     absorbed.clear();
     strays.clear();
@@ -230,17 +231,20 @@ void Workshop<Real>::put_out(Outturn& outturn) {
     outturn.turned.begin = static_cast<std::uint32_t>(turned.size());
     for (const Index local : turned_) {
         const Guest& guest = guests_[local];
-        Turned<Real> result{.body = guest.body,
-                            .path = flown(local_, local),
-                            .earlier = guest.earlier,
-                            .flight = local_.bodies.course[local].flight,
-                            .room = guest.room,
-                            .track = guest.track};
-        if (result.path.kind == Kind::held) {
+        Turned<Real>& result = turned.emplace_back();
+        static_cast<TurnedBody&>(result) = {guest.body, guest.room, guest.track};
+        result.motion = local_.bodies.motion[local];
+        result.earlier = guest.earlier;
+        result.kind = local_.bodies.kind[local];
+        const Flight& flight = local_.bodies.course[local].flight;
+        if (is_recent(flight, to_, local_.laws.collapse_time)) {
+            result.flight = static_cast<std::uint32_t>(flights.size());
+            flights.push_back(flight);
+        }
+        if (result.kind == Kind::held) {
             result.hold = static_cast<std::uint32_t>(holds.size());
             holds.push_back(hold_of(local_.bodies, local));
         }
-        turned.push_back(result);
     }
     outturn.turned.end = static_cast<std::uint32_t>(turned.size());
 }

@@ -27,14 +27,12 @@ struct Leg {
 
 /// How a body that had impacts ends the window.
 template <class Real>
-struct Turned {
-    Index body = no_index;
-    Flown<Real> path{};
+struct Turned : TurnedBody {
+    Motion<Real> motion{};
     std::uint32_t earlier = nowhere; ///< the leg before
+    std::uint32_t flight = nowhere;  ///< in flights, if it is to be remembered
     std::uint32_t hold = nowhere;    ///< in holds, if held
-    Flight flight{};
-    float room = 0; ///< m, left at the window's end; negative if it has left its cover
-    Track track{};  ///< of the path
+    Kind kind = Kind::free;
 };
 
 /// A body that an impact made leave its cover.
@@ -77,12 +75,18 @@ public:
     /// The window is for the one queue: an island has too many impacts, or a body leaves the world.
     [[nodiscard]] bool has_given_up() const { return given_up_; }
     [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
+    /// The last path of a body that turned.
+    [[nodiscard]] Flown<Real> last_path(const Turned<Real>& turned) const {
+        const Vec3& a = turned.hold == nowhere ? local_.laws.gravity : holds[turned.hold].acceleration;
+        return {turned.motion, a, turned.kind};
+    }
 
     // Of all islands since open().
     std::vector<Occurrence> log;
     std::vector<EventIds> log_ids;
     std::vector<Turned<Real>> turned;
     std::vector<Leg<Real>> legs;
+    std::vector<Flight> flights;
     std::vector<Hold> holds;
     std::vector<Index> absorbed;
     std::vector<Stray<Real>> strays;

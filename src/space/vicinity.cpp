@@ -357,7 +357,7 @@ Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
 }
 
 template <class Real>
-void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
+void Vicinity<Real>::settle(std::span<const TurnedBody* const> turned) {
     // Of late, more or less.
     constexpr double weight = 0.25;
     const auto bodies = static_cast<double>(std::max<std::size_t>(state_.bodies.size(), 1));
@@ -367,8 +367,9 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
     constexpr std::size_t grain = 512;
     for_each_in_parts(*executor_, turned.size(), grain, [&](std::size_t, std::size_t k) {
         constexpr std::size_t ahead = 8;
-        prefetch_body(turned[std::min(k + ahead, turned.size() - 1)].body);
-        const TurnedBody& t = turned[k];
+        prefetch_object(turned[std::min(k + 2 * ahead, turned.size() - 1)]);
+        prefetch_body(turned[std::min(k + ahead, turned.size() - 1)]->body);
+        const TurnedBody& t = *turned[k];
         if (state_.bodies.kind[t.body] == Kind::free) {
             put_track(t.body, t.track, t.room, window_end_);
         } else {
@@ -379,15 +380,15 @@ void Vicinity<Real>::settle(std::span<const TurnedBody> turned) {
     for (const Index body : near_walls_) plan_wall(0, body, window_ + 1);
     for_parts(*executor_, turned.size(), grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
         constexpr std::size_t ahead = 4;
-        const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)].body; };
+        const auto soon = [&](std::size_t k) { return turned[std::min(k, end - 1)]->body; };
         const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack * length_);
         for (std::size_t k = begin; k < end; ++k) {
             prefetch_body(soon(k + 3 * ahead));
             prefetch(&state_.bodies.motion[soon(k + 2 * ahead)]);
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
-            plan_meetings(part, turned[k].body, from, window_ + 1);
-            plan_alone(part, turned[k].body, window_ + 1);
+            plan_meetings(part, turned[k]->body, from, window_ + 1);
+            plan_alone(part, turned[k]->body, window_ + 1);
         }
     });
 }

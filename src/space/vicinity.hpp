@@ -116,7 +116,7 @@ public:
     void cover_along(Index body, const Flown<Real>& path);
 
     /// End of a window.
-    void settle(std::span<const TurnedBody> turned);
+    void settle(std::span<const TurnedBody* const> turned);
 
 private:
     /// s since the epoch's start, of a time since the step's start.

@@ -97,8 +97,6 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     set_contact_time(state_.laws, state_.resolution);
     state_.laws.rules = options.material_rules;
     state_.bodies.interpolating = options.interpolation;
-    outcome_.record = options.record_impacts;
-    outcome_.least_impulse = options.least_recorded_impulse;
     set_executor(make_default_executor(options.threads));
 }
 
@@ -106,7 +104,7 @@ template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
-      outcome_(other.outcome_), impacts_(other.impacts_), serial_(state_), islands_(state_, serial_),
+      impacts_(other.impacts_), serial_(state_), islands_(state_, serial_),
       placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_) {
     set_executor(other.executor_);
 }
@@ -156,8 +154,8 @@ void Engine<Real>::set_origin(const std::array<std::int64_t, 3>& origin) {
 template <class Real>
 void Engine<Real>::set_recording(bool record_impacts, double least_recorded_impulse) {
     check_not_negative(least_recorded_impulse, "least_recorded_impulse");
-    setting_.options.record_impacts = outcome_.record = record_impacts;
-    setting_.options.least_recorded_impulse = outcome_.least_impulse = least_recorded_impulse;
+    setting_.options.record_impacts = record_impacts;
+    setting_.options.least_recorded_impulse = least_recorded_impulse;
 }
 
 template <class Real>

@@ -130,7 +130,8 @@ private:
     void finish_bodies(double reached);
     void keep_spatial_order();
     void finish_step(double dt, double reached);
-    void publish_impacts(double start);
+    /// As the API shows it, of a step that began at `start` (s).
+    [[nodiscard]] Impact impact_of(const ImpactRecord& record, double start) const;
 
     // forces.cpp
     [[nodiscard]] std::vector<PointField> placed_fields() const;

@@ -139,8 +139,13 @@ template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
-    outcome_.impacts = outcome_.face_impacts = outcome_.tc_conversions = 0;
-    outcome_.records.clear();
+    impacts_.clear();
+    outcome_ = {.least_impulse = setting_.options.least_recorded_impulse};
+    if (setting_.options.record_impacts) {
+        outcome_.record = [this, start = clock_.seconds()](const ImpactRecord& record) {
+            impacts_.push_back(impact_of(record, start));
+        };
+    }
     state_.laws.kick_interval = dt;
     state_.books.held_mass_time = {};
     if (!state_.bodies.interpolating) return;
@@ -282,27 +287,22 @@ void Engine<Real>::finish_step(double dt, double reached) {
     ledger_.lost_to_friction = state_.books.lost_to_friction.value();
     ledger_.lost_to_drag = state_.books.lost_to_drag.value();
     ledger_.outer_impulse = state_.books.outer_impulse.value();
-    publish_impacts(start);
 }
 
 template <class Real>
-void Engine<Real>::publish_impacts(double start) {
-    impacts_.clear();
-    impacts_.reserve(outcome_.records.size());
-    for (const ImpactRecord& record : outcome_.records) {
-        const bool at_face = record.face >= 0;
-        const Int3 x = state_.bounds.any_periodic() ? state_.bounds.wrapped(record.x) : record.x;
-        impacts_.push_back({.time = start + record.offset,
-                            .offset = record.offset,
-                            .a = id_of(record.a),
-                            .b = at_face ? BodyId{} : id_of(record.b),
-                            .face = record.face,
-                            .position = api_position(x) + record.arm,
-                            .normal = record.normal,
-                            .impulse = record.impulse,
-                            .approach_speed = record.approach_speed,
-                            .energy_lost = record.energy_lost});
-    }
+Impact Engine<Real>::impact_of(const ImpactRecord& record, double start) const {
+    const bool at_face = record.face >= 0;
+    const Int3 x = state_.bounds.any_periodic() ? state_.bounds.wrapped(record.x) : record.x;
+    return {.time = start + record.offset,
+            .offset = record.offset,
+            .a = id_of(record.a),
+            .b = at_face ? BodyId{} : id_of(record.b),
+            .face = record.face,
+            .position = api_position(x) + record.arm,
+            .normal = record.normal,
+            .impulse = record.impulse,
+            .approach_speed = record.approach_speed,
+            .energy_lost = record.energy_lost};
 }
 
 template <class Real>
