@@ -76,9 +76,9 @@ public:
     [[nodiscard]] bool has_given_up() const { return given_up_; }
     [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
     /// The last path of a body that turned.
-    [[nodiscard]] Flown<Real> last_path(const Turned<Real>& turned) const {
-        const Vec3& a = turned.hold == nowhere ? local_.laws.gravity : holds[turned.hold].acceleration;
-        return {turned.motion, a, turned.kind};
+    [[nodiscard]] Flown<Real> last_path(const Turned<Real>& body) const {
+        const Vec3& a = body.hold == nowhere ? local_.laws.gravity : holds[body.hold].acceleration;
+        return {body.motion, a, body.kind};
     }
 
     // Of all islands since open().

@@ -40,10 +40,12 @@ double Cells::first_edge(std::size_t bodies) const {
         while (bin + 1 < histogram_.size() && left > histogram_[bin]) left -= histogram_[bin++];
         return bin_end(bin);
     };
-    // One size: the first level takes nearly all. Many sizes: start low, the others find their own level.
+    // One size: the first level takes nearly all, in cells with some to spare: fewer of them, each with more balls that
+    // look around together. Many sizes: start low, the others find their own level.
     constexpr double one_size = 4;
+    constexpr double spare = 1.25;
     const double most = quantile(0.98);
-    return most <= one_size * quantile(0.05) ? most : quantile(0.25);
+    return most <= one_size * quantile(0.05) ? spare * most : quantile(0.25);
 }
 
 void Cells::choose_levels(std::size_t bodies) {
@@ -65,27 +67,28 @@ void Cells::choose_levels(std::size_t bodies) {
     levels_.push_back({.edge = {0xffffffffU, 0xffffffffU, 0xffffffffU}});
 }
 
-void Cells::lay_out_levels(const Axes& axes) {
+void Cells::lay_out_levels(const Axes& axes, std::size_t bodies) {
+    // Also for balls that come later.
+    const double least = std::max(64.0, static_cast<double>(bodies) / 32);
     std::uint32_t first_cell = 0;
     for (Level& level : levels_) {
-        lay_out_level(level, axes);
+        lay_out_level(level, axes, std::max(least, cells_per_body * level.population));
         level.population = 0;
         level.first_cell = first_cell;
         first_cell += level.cell_count();
     }
 }
 
-void Cells::lay_out_level(Level& level, const Axes& axes) {
+void Cells::lay_out_level(Level& level, const Axes& axes, double most_cells) {
     level.turns = {1, 1, 1};
     level.cells = {1, 1, 1};
     if (level.is_last()) return;
-    const double most = std::max(64.0, cells_per_body * level.population);
     std::array<double, 3> wanted{};
     for (std::size_t k = 0; k < 3; ++k) {
         wanted[k] = std::clamp(axes.extent[k] / level.edge[k] + 2, 1.0, whole_turn / level.edge[k]);
     }
     // Too many cells: fold the grid along its longest side.
-    while (wanted[0] * wanted[1] * wanted[2] > most) *std::max_element(wanted.begin(), wanted.end()) /= 2;
+    while (wanted[0] * wanted[1] * wanted[2] > most_cells) *std::max_element(wanted.begin(), wanted.end()) /= 2;
     for (std::size_t k = 0; k < 3; ++k) {
         const double turns = std::max(1.0, std::floor(whole_turn / (level.edge[k] * std::ceil(wanted[k]))));
         const double cells = std::floor(whole_turn / (turns * level.edge[k]));

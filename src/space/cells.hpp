@@ -155,7 +155,7 @@ private:
     };
 
     /// Cells share lists of late balls, of which there are few, with the next ones along x: lists take little memory.
-    static std::uint32_t late_group(std::uint32_t cell) { return cell / 8; }
+    static std::uint32_t late_group(std::uint32_t cell) { return cell / 4; }
     [[nodiscard]] Ball sorted_ball(std::uint32_t place) const {
         return {{x_[place], y_[place], z_[place]}, radius_[place]};
     }
@@ -164,8 +164,8 @@ private:
     void count_diameter(const Ball& ball);
     void choose_levels(std::size_t sampled);
     [[nodiscard]] double first_edge(std::size_t bodies) const;
-    void lay_out_levels(const Axes& axes);
-    static void lay_out_level(Level& level, const Axes& axes);
+    void lay_out_levels(const Axes& axes, std::size_t bodies);
+    static void lay_out_level(Level& level, const Axes& axes, double most_cells);
     [[nodiscard]] float largest_radius(const Level& level) const;
     [[nodiscard]] std::size_t level_of(const Ball& ball) const {
         std::size_t level = 0;
@@ -227,7 +227,7 @@ void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
     for (std::size_t i = 0; i < bodies; i += sample) count_diameter(ball_of(i));
     choose_levels(bodies);
     for (std::size_t i = 0; i < bodies; i += sample) levels_[level_of(ball_of(i))].population += sample;
-    lay_out_levels(axes);
+    lay_out_levels(axes, bodies);
     start_sorting(bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
         const Ball ball = ball_of(i);

@@ -19,7 +19,10 @@ public:
 
     /// The value of one more body than the `size` so far.
     void append(const T& value, std::size_t size) {
-        if (size == 0) *this = Column(value);
+        if (size == 0) {
+            own_.clear();
+            shared_ = value;
+        }
         if (own_.empty() && !(value == shared_)) own_.assign(size, shared_);
         if (!own_.empty()) own_.push_back(value);
     }
@@ -29,8 +32,9 @@ public:
         if (own_.empty()) own_.assign(size, shared_);
         own_[i] = value;
     }
-    /// Gives the array up if all are equal after all.
-    void unite() {
+    /// Forgets what the values of `size` bodies do not tell: those of others, and that they were once different.
+    void normalise(std::size_t size) {
+        if (size == 0) *this = {};
         const auto is_shared = [this](const T& value) { return value == own_.front(); };
         if (!own_.empty() && std::all_of(own_.begin(), own_.end(), is_shared)) *this = Column(own_.front());
     }

@@ -140,7 +140,8 @@ void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
     impacts_.clear();
-    outcome_ = {.least_impulse = setting_.options.least_recorded_impulse};
+    outcome_ = {};
+    outcome_.least_impulse = setting_.options.least_recorded_impulse;
     if (setting_.options.record_impacts) {
         outcome_.record = [this, start = clock_.seconds()](const ImpactRecord& record) {
             impacts_.push_back(impact_of(record, start));

@@ -260,7 +260,7 @@ std::vector<std::byte> Engine<Real>::save() const {
         if (slot.index != no_index) order.push_back(slot.index);
     }
     reorder(ordered, order);
-    ordered.for_each_column([](auto& column) { column.unite(); });
+    ordered.for_each_column([this](auto& column) { column.normalise(size()); });
     self.transfer(body, ordered);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
