@@ -107,8 +107,12 @@ double median(std::vector<double> values) {
 
 scene::Summary summary_of(const Plan& plan, const std::vector<Repeat>& repeats, unsigned threads) {
     std::vector<double> seconds;
-    seconds.reserve(repeats.size());
-    for (const Repeat& repeat : repeats) seconds.push_back(repeat.timed.seconds);
+    std::vector<double> bytes_per_body;
+    for (const Repeat& repeat : repeats) {
+        seconds.push_back(repeat.timed.seconds);
+        // The first one also meets the program's code and threads for the first time.
+        bytes_per_body.push_back(repeat.bytes_per_body);
+    }
     const Repeat& first = repeats.front();
     scene::Summary summary;
     summary.bodies = plan.scene.bodies.size();
@@ -127,7 +131,7 @@ scene::Summary summary_of(const Plan& plan, const std::vector<Repeat>& repeats, 
     summary.contacts = first.contacts;
     summary.start = first.start;
     summary.end = first.end;
-    summary.bytes_per_body = first.bytes_per_body;
+    summary.bytes_per_body = median(bytes_per_body);
     summary.hash = first.hash;
     return summary;
 }
