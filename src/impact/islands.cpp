@@ -70,7 +70,7 @@ void IslandSolver<Real>::predict_first() {
     const std::vector<Index>& near_walls = vicinity_.near_walls();
     for_each_in_parts(*executor_, near_walls.size(), pair_grain, [&](std::size_t part, std::size_t k) {
         constexpr std::size_t ahead = 8;
-        prefetch(&state_.bodies.motion[near_walls[std::min(k + ahead, near_walls.size() - 1)]]);
+        prefetch_object(&state_.bodies.motion[near_walls[std::min(k + ahead, near_walls.size() - 1)]]);
         for_each_wall_event(state_, near_walls[k], window_.to, [&](double time, std::uint32_t wall) {
             found_[part].push_back({time, near_walls[k], wall, 0, 0});
         });
@@ -93,8 +93,8 @@ void IslandSolver<Real>::predict_batch(std::size_t part, std::size_t begin, std:
     const auto& candidates = vicinity_.candidates();
     for (std::size_t k = begin; k < end; ++k) {
         const auto& soon = candidates[std::min(k + ahead, end - 1)];
-        prefetch(&state_.bodies.motion[soon.first]);
-        prefetch(&state_.bodies.motion[soon.second]);
+        prefetch_object(&state_.bodies.motion[soon.first]);
+        prefetch_object(&state_.bodies.motion[soon.second]);
         auto [a, b] = candidates[k];
         // An event's first body is one that it moves.
         if (state_.bodies.kind[a] == Kind::fixed) std::swap(a, b);
@@ -417,7 +417,7 @@ void IslandSolver<Real>::write_back() {
     for (std::size_t k = 0; k < members_.size(); ++k) {
         constexpr std::size_t ahead = 8;
         const Member& soon = members_[std::min(k + ahead, members_.size() - 1)];
-        prefetch(&bodies.motion[soon.body]);
+        prefetch_object(&bodies.motion[soon.body]);
         if (soon.turned != nowhere) prefetch(&turned_of(soon));
         const Member& member = members_[k];
         if (member.turned == nowhere) continue;

@@ -125,7 +125,7 @@ void SerialSolver<Real>::prefetch_next() const {
         const Event* const next = queue_.candidate(k);
         if (next == nullptr) return;
         for (const Index body : {next->a, next->at_wall() ? next->a : next->b}) {
-            prefetch(&state_.bodies.motion[body]);
+            prefetch_object(&state_.bodies.motion[body]);
             prefetch(&state_.bodies.trait[body]);
             if (k == 0) {
                 prefetch_neighbours(body);
@@ -138,7 +138,7 @@ void SerialSolver<Real>::prefetch_next() const {
 
 template <class Real>
 void SerialSolver<Real>::prefetch_neighbours(Index body) const {
-    neighbours_.for_each(body, [&](Index other) { prefetch(&state_.bodies.motion[other]); });
+    neighbours_.for_each(body, [&](Index other) { prefetch_object(&state_.bodies.motion[other]); });
 }
 
 template <class Real>

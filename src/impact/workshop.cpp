@@ -252,7 +252,7 @@ void Workshop<Real>::put_out(Outturn& outturn) {
 template <class Real>
 void Workshop<Real>::prefetch_bodies(std::span<const Index> bodies) const {
     for (const Index body : bodies) {
-        prefetch(&state_->bodies.motion[body]);
+        prefetch_object(&state_->bodies.motion[body]);
         prefetch(&state_->bodies.trait[body]);
         vicinity_->prefetch_body(body);
     }

@@ -13,11 +13,13 @@ inline void prefetch(const void* address) {
     asm volatile("" : : "r"(address));
 }
 
-/// Asks for all cache lines of an object.
+/// Asks for all cache lines of an object. One whose size divides that of a line is taken to lie in a single one.
 template <class T>
 void prefetch_object(const T* object) {
     constexpr std::size_t line = 64;
-    for (std::size_t k = 0; k < sizeof(T); k += line) prefetch(reinterpret_cast<const std::byte*>(object) + k);
+    const auto* const bytes = reinterpret_cast<const std::byte*>(object);
+    for (std::size_t k = 0; k < sizeof(T); k += line) prefetch(bytes + k);
+    if constexpr (line % sizeof(T) != 0) prefetch(bytes + sizeof(T) - 1);
 }
 
 /// To be called in a loop over an array with much work per element: asks for the element that is some turns away. Such
@@ -25,7 +27,7 @@ void prefetch_object(const T* object) {
 template <class T>
 void prefetch_ahead(const T* element) {
     constexpr int turns = 16;
-    prefetch(element + turns);
+    prefetch_object(element + turns);
 }
 
 } // namespace carom::core

@@ -384,7 +384,7 @@ void Vicinity<Real>::settle(std::span<const TurnedBody* const> turned) {
         const auto from = static_cast<float>(static_cast<double>(window_end_) - 2 * slack * length_);
         for (std::size_t k = begin; k < end; ++k) {
             prefetch_body(soon(k + 3 * ahead));
-            prefetch(&state_.bodies.motion[soon(k + 2 * ahead)]);
+            prefetch_object(&state_.bodies.motion[soon(k + 2 * ahead)]);
             prefetch_list(soon(k + 2 * ahead));
             prefetch_tracks(soon(k + ahead));
             plan_meetings(part, turned[k]->body, from, window_ + 1);
