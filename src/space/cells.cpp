@@ -122,10 +122,16 @@ void Cells::start_sorting(std::size_t bodies) {
     radius_.resize(bodies + simd_padding);
 }
 
-void Cells::place_sorted(Index body, const Ball& ball, std::uint32_t place) {
-    replace(place, ball);
-    body_[place] = body;
-    place_[body] = place;
+/// From the cell of each body to its place among the sorted ones: cell by cell, and in one by their indices.
+void Cells::sort_places(std::size_t bodies) {
+    for (std::size_t i = 0; i < bodies; ++i) ++starts_[place_[i] + 1];
+    for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+    for (Level& level : levels_) {
+        level.population = starts_[level.first_cell + level.cell_count()] - starts_[level.first_cell];
+    }
+    for (std::size_t i = 0; i < bodies; ++i) place_[i] = starts_[place_[i]]++;
+    for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
+    starts_[0] = 0;
 }
 
 Cells::Reach Cells::reach_of(const Ball& ball) const {

@@ -7,6 +7,7 @@
 /// neighbours. The last level is one cell for everything that is too long for the others.
 #pragma once
 
+#include "space/parallel.hpp"
 #include "space/simd_search.hpp"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ public:
 
     /// Registers one ball per body: `ball_at(i)` is that of body i.
     template <class BallAt>
-    void build(std::size_t bodies, const Axes& axes, BallAt&& ball_at);
+    void build(Executor& executor, std::size_t bodies, const Axes& axes, BallAt&& ball_at);
     /// Replaces the ball of a body; a new body must have the next index.
     void update(Index body, const Ball& ball);
     /// Registers a body with one more ball, until the next build().
@@ -174,7 +175,7 @@ private:
     }
     static std::uint32_t home_cell(const Level& level, const Ball& ball);
     void start_sorting(std::size_t bodies);
-    void place_sorted(Index body, const Ball& ball, std::uint32_t place);
+    void sort_places(std::size_t bodies);
     void replace(std::uint32_t place, const Ball& ball);
     std::uint32_t add_late(Index body, const Ball& ball);
 
@@ -219,7 +220,7 @@ private:
 };
 
 template <class BallAt>
-void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
+void Cells::build(Executor& executor, std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
     // A sample is enough: levels and their cells decide about speed only.
     constexpr std::size_t sample = 7;
     const auto ball_of = [&](std::size_t i) { return ball_at(static_cast<Index>(i)); };
@@ -229,19 +230,16 @@ void Cells::build(std::size_t bodies, const Axes& axes, BallAt&& ball_at) {
     for (std::size_t i = 0; i < bodies; i += sample) levels_[level_of(ball_of(i))].population += sample;
     lay_out_levels(axes, bodies);
     start_sorting(bodies);
-    for (std::size_t i = 0; i < bodies; ++i) {
+    constexpr std::size_t grain = 4096;
+    for_each_in_parts(executor, bodies, grain, [&](std::size_t, std::size_t i) {
         const Ball ball = ball_of(i);
-        Level& level = levels_[level_of(ball)];
-        ++level.population;
-        place_[i] = home_cell(level, ball);
-        ++starts_[place_[i] + 1];
-    }
-    for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
-    for (std::size_t i = 0; i < bodies; ++i) {
-        place_sorted(static_cast<Index>(i), ball_of(i), starts_[place_[i]]++);
-    }
-    for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
-    starts_[0] = 0;
+        place_[i] = home_cell(levels_[level_of(ball)], ball);
+    });
+    sort_places(bodies);
+    for_each_in_parts(executor, bodies, grain, [&](std::size_t, std::size_t i) {
+        replace(place_[i], ball_of(i));
+        body_[place_[i]] = static_cast<Index>(i);
+    });
 }
 
 template <class F>

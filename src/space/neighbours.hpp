@@ -19,7 +19,7 @@ public:
     template <class CoverAt, class Predicate>
     void build(Executor& executor, std::size_t bodies, const Cells::Axes& axes, CoverAt&& cover_at,
                Predicate&& looks_up) {
-        cells_.build(bodies, axes, cover_at);
+        cells_.build(executor, bodies, axes, cover_at);
         start_lists(bodies);
         for_parts(executor, bodies, grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
             make_lists(part, begin, end, looks_up);

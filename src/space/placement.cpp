@@ -11,7 +11,7 @@ template <class Real>
 void Placement<Real>::build() {
     const Census census = take_census(state_.bodies);
     ticks_ = Ticks(state_.bounds, state_.resolution, std::max(2 * census.mean_radius, state_.resolution.metres));
-    cells_.build(state_.bodies.size(), ticks_.axes(census), [this](Index i) { return ball_of(i); });
+    cells_.build(*loops_, state_.bodies.size(), ticks_.axes(census), [this](Index i) { return ball_of(i); });
     valid_ = true;
 }
 

@@ -6,6 +6,7 @@
 #include "space/state.hpp"
 #include "space/ticks.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace carom::core {
@@ -37,6 +38,7 @@ private:
     const State<Real>& state_;
     Ticks ticks_;
     Cells cells_;
+    std::shared_ptr<Executor> loops_ = make_serial_executor();
     bool valid_ = false;
 };
 

@@ -256,7 +256,7 @@ void Engine<Real>::keep_spatial_order() {
     const double scale = std::max(4 * census.mean_radius, setting_.resolution.metres);
     const Ticks ticks(state_.bounds, setting_.resolution, scale);
     Cells cells;
-    cells.build(size(), ticks.axes(census), [&](Index i) {
+    cells.build(*executor_, size(), ticks.axes(census), [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
         return ticks.ball(m.x, {}, static_cast<double>(m.radius));
     });

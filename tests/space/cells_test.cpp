@@ -48,7 +48,7 @@ public:
     }
 
     void build() {
-        cells.build(balls.size(), axes_, [this](Index i) { return balls[i]; });
+        cells.build(*carom::make_serial_executor(), balls.size(), axes_, [this](Index i) { return balls[i]; });
     }
 
     /// For each ball another one that it touches, as far away as the comparison of ticks allows.
