@@ -414,15 +414,26 @@ void IslandSolver<Real>::commit(Outcome& outcome) {
 template <class Real>
 void IslandSolver<Real>::write_back() {
     Bodies<Real>& bodies = state_.bodies;
-    for (std::size_t k = 0; k < members_.size(); ++k) {
+    constexpr std::size_t grain = 512;
+    for_each_in_parts(*executor_, members_.size(), grain, [&](std::size_t, std::size_t k) {
         constexpr std::size_t ahead = 8;
         const Member& soon = members_[std::min(k + ahead, members_.size() - 1)];
         prefetch_object(&bodies.motion[soon.body]);
-        if (soon.turned != nowhere) prefetch(&turned_of(soon));
+        if (soon.turned != nowhere) prefetch_object(&turned_of(soon));
         const Member& member = members_[k];
+        if (member.turned != nowhere) bodies.motion[member.body] = turned_of(member).motion;
+    });
+    const bool one_is_held = std::any_of(workshops_.begin(), workshops_.end(),
+                                         [](const auto& workshop) { return !workshop->holds.empty(); });
+    if (one_is_held || !bodies.holds.empty()) write_holds_back();
+}
+
+template <class Real>
+void IslandSolver<Real>::write_holds_back() {
+    Bodies<Real>& bodies = state_.bodies;
+    for (const Member& member : members_) {
         if (member.turned == nowhere) continue;
         const Turned<Real>& turned = turned_of(member);
-        bodies.motion[member.body] = turned.motion;
         release(bodies, member.body);
         bodies.kind[member.body] = turned.kind;
         if (turned.hold != nowhere) {
@@ -465,7 +476,7 @@ void IslandSolver<Real>::write_down(Outcome& outcome) {
             places_.push_back(latest);
         }
     }
-    std::sort(places_.begin(), places_.end());
+    sort_places();
     for (std::size_t k = 0; k < places_.size(); ++k) {
         constexpr std::size_t ahead = 8;
         const Place& later = places_[std::min(k + 2 * ahead, places_.size() - 1)];
@@ -477,6 +488,26 @@ void IslandSolver<Real>::write_down(Outcome& outcome) {
         state_.books.add(occurrence.entry);
         outcome.add(occurrence);
     }
+}
+
+/// Sorts by slices of the window: those of a slice are few.
+template <class Real>
+void IslandSolver<Real>::sort_places() {
+    constexpr std::size_t slices = most_parts;
+    const double per_second = slices / std::max(window_.to - window_.from, std::numeric_limits<double>::min());
+    const auto slice_of = [&](const Place& place) {
+        return static_cast<std::size_t>(std::clamp((place.time - window_.from) * per_second, 0.0, slices - 1.0));
+    };
+    std::array<std::size_t, slices + 1> ends{};
+    for (const Place& place : places_) ++ends[slice_of(place) + 1];
+    for (std::size_t k = 1; k < ends.size(); ++k) ends[k] += ends[k - 1];
+    sorted_places_.resize(places_.size());
+    for (const Place& place : places_) sorted_places_[ends[slice_of(place)]++] = place;
+    places_.swap(sorted_places_);
+    for_each_in_parts(*executor_, slices, 1, [&](std::size_t, std::size_t k) {
+        const std::size_t begin = k == 0 ? 0 : ends[k - 1];
+        std::sort(places_.data() + begin, places_.data() + ends[k]);
+    });
 }
 
 template <class Real>

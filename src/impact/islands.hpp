@@ -90,8 +90,10 @@ private:
 
     void commit(Outcome& outcome);
     void write_back();
+    void write_holds_back();
     void remember_flights();
     void write_down(Outcome& outcome);
+    void sort_places();
     void clear_window();
 
     [[nodiscard]] const Turned<Real>& turned_of(const Member& member) const {
@@ -137,6 +139,7 @@ private:
         friend auto operator<=>(const Place&, const Place&) = default;
     };
     std::vector<Place> places_;
+    std::vector<Place> sorted_places_;
 
     SolverCosts costs_;
     IslandCounts counts_{};

@@ -150,7 +150,7 @@ bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     const Motion<Real>& m = state_.bodies.motion[body];
     if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to))) return true;
     neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_));
-    neighbours_.link_all(body, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    neighbours_.link_all(*loops_, {&body, 1}, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
     return true;
 }
 

@@ -30,6 +30,14 @@ std::size_t Neighbours::found() const {
     return sum - std::min(sum, known_.size());
 }
 
+void Neighbours::find_meeting(Part& part, std::span<const Index> bodies) const {
+    part.searcher.start();
+    for (const Index body : bodies) {
+        cells_.find_meeting(cells_.ball_of(body), body, part.searcher, part.meeting);
+        for (const Index other : part.meeting) part.meetings.push_back({body, other});
+    }
+}
+
 void Neighbours::drop_extensions() {
     if (!extending_) return;
     extending_ = false;

@@ -38,10 +38,19 @@ public:
         cells_.update(body, cover);
         known_[body] = {};
     }
-    /// Links a body and all whose covers meet its own.
+    /// Links some bodies, and all whose covers meet theirs.
     template <class Predicate>
-    void link_all(Index body, Predicate&& looks_up) {
-        link_to(body, cells_.ball_of(body), looks_up);
+    void link_all(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
+        constexpr std::size_t few = 64;
+        for_parts(executor, bodies.size(), few, [&](std::size_t part, std::size_t begin, std::size_t end) {
+            find_meeting(parts_[part], bodies.subspan(begin, end - begin));
+        });
+        for (std::size_t k = 0; k < parts_of(bodies.size(), few); ++k) {
+            Part& part = parts_[k];
+            for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
+            for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
+            part.meetings.clear();
+        }
     }
     /// Takes a body's cover away, and its neighbours.
     void uncover(Index body) {
@@ -58,7 +67,10 @@ public:
     template <class Predicate>
     void extend_cover(Index body, const Ball& cover, Predicate&& looks_up) {
         cells_.add(body, cover);
-        link_to(body, cover, looks_up);
+        Part& part = parts_[0];
+        part.searcher.start();
+        cells_.find_meeting(cover, body, part.searcher, part.meeting);
+        for (const Index other : part.meeting) link_both(body, other, looks_up);
     }
     /// Takes away what extend_cover() gave.
     void drop_extensions();
@@ -129,10 +141,17 @@ private:
     [[nodiscard]] const Index* list_at(std::uint32_t place) const {
         return parts_[place >> place_bits].lists.data() + (place & place_mask);
     }
+    /// Two bodies whose covers meet.
+    struct Meeting {
+        Index body = no_index;
+        Index other = no_index;
+    };
     struct Part {
         std::vector<Index> lists;
         std::size_t used = 0;
         BallSearcher searcher;
+        std::vector<Index> meeting; ///< one body
+        std::vector<Meeting> meetings;
     };
 
     void start_lists(std::size_t bodies);
@@ -146,16 +165,12 @@ private:
     }
     void make_list(Part& part, std::uint32_t number, std::size_t k);
 
+    void find_meeting(Part& part, std::span<const Index> bodies) const;
     /// Who has the body in a list of build() has it twice then: to find that out would cost more.
     template <class Predicate>
-    void link_to(Index body, const Ball& cover, Predicate&& looks_up) {
-        searcher_.start();
-        cells_.find_meeting(cover, body, searcher_, meeting_);
-        for (const Index other : meeting_) prefetch(&known_[other]);
-        for (const Index other : meeting_) {
-            link(body, other);
-            if (looks_up(other) && !is_linked(other, body)) link(other, body);
-        }
+    void link_both(Index body, Index other, Predicate&& looks_up) {
+        link(body, other);
+        if (looks_up(other) && !is_linked(other, body)) link(other, body);
     }
     void link(Index body, Index other);
     [[nodiscard]] bool is_linked(Index body, Index other) const;
@@ -167,8 +182,6 @@ private:
     bool extending_ = false;
     std::size_t extensions_from_ = 0; ///< in the cells
     std::vector<Index> extended_;     ///< whose the links are that came since
-    BallSearcher searcher_;           ///< of link_to()
-    std::vector<Index> meeting_;
 };
 
 } // namespace carom::core

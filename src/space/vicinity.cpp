@@ -263,7 +263,7 @@ void Vicinity<Real>::renew_exits() {
         }
         plan_exit(0, body, window_ + 1);
     }
-    for (const Index body : renewed_) neighbours_.link_all(body, looks_up);
+    neighbours_.link_all(*executor_, renewed_, looks_up);
     for_each_in_parts(*executor_, renewed_.size(), grain, [&](std::size_t part, std::size_t k) {
         plan_meetings(part, renewed_[k], window_start_, window_);
     });
