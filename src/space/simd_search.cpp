@@ -305,6 +305,9 @@ constexpr auto targets = std::to_array<Target>({
 #    endif
     {0, "scalar", &pack_balls_plainly, &find_meeting_plainly, &find_tracks_plainly},
 });
+#    ifdef HWY_COMPILE_ONLY_SCALAR
+static_assert(targets.size() == 1);
+#    endif
 
 bool is_supported(const Target& target) {
     return target.bits == 0 || (static_cast<std::int64_t>(HWY_SUPPORTED_TARGETS) & target.bits) != 0;

@@ -1,5 +1,6 @@
 // The vectorised searches find what the plain ones find, for every instruction set and every length of a list.
 
+#include "same_bits/keeps_simd_target.hpp"
 #include "space/simd_search.hpp"
 
 #include <carom/error.hpp>
@@ -27,15 +28,6 @@ using carom::core::TrackScale;
 using Runs = std::vector<carom::core::Run>;
 
 constexpr std::size_t count = 300;
-
-/// Puts the instruction set back that was in use.
-class KeepsTarget {
-public:
-    ~KeepsTarget() { carom::use_simd_target(name_); }
-
-private:
-    std::string name_{carom::simd_target()};
-};
 
 /// Balls as one instruction set packs and searches them.
 class Seen {
@@ -95,7 +87,7 @@ private:
 };
 
 TEST_F(SimdSearch, BallsAreFoundAlike) {
-    const KeepsTarget keep;
+    const carom::test::KeepsSimdTarget keeps;
     std::vector<Tick> x(count + simd_padding);
     std::vector<Tick> y(count + simd_padding);
     std::vector<Tick> z(count + simd_padding);
@@ -127,7 +119,7 @@ TEST_F(SimdSearch, BallsAreFoundAlike) {
 }
 
 TEST_F(SimdSearch, TracksAreFoundAlike) {
-    const KeepsTarget keep;
+    const carom::test::KeepsSimdTarget keeps;
     std::vector<Track> tracks(count);
     for (std::size_t k = 0; k < count; ++k) {
         tracks[k] = {.start = {tick(), tick(), tick()},

@@ -1,6 +1,8 @@
 // Islands do as the one queue does, bit for bit: in small random worlds with everything in them that a world may have,
 // cut into windows, on threads, and meddled with between steps.
 
+#include "same_bits/disorderly_executor.hpp"
+
 #include <carom/carom.hpp>
 
 #include <gtest/gtest.h>
@@ -21,23 +23,8 @@ using carom::Impact;
 using carom::Vec3;
 using carom::World;
 using carom::WorldOptions;
-
-/// Runs parts in the order of a fixed shuffle, or from the last to the first.
-class DisorderlyExecutor : public carom::Executor {
-public:
-    explicit DisorderlyExecutor(bool shuffles) : shuffles_(shuffles) {}
-    [[nodiscard]] unsigned threads() const noexcept override { return 3; }
-    void run(std::size_t parts, Task task, void* context) override {
-        std::vector<std::size_t> order(parts);
-        for (std::size_t k = 0; k < parts; ++k) order[k] = parts - 1 - k;
-        if (shuffles_) std::shuffle(order.begin(), order.end(), random_);
-        for (const std::size_t part : order) task(context, part);
-    }
-
-private:
-    bool shuffles_;
-    std::mt19937 random_{5}; // NOLINT(cert-msc51-cpp): fixed
-};
+using carom::test::Disorder;
+using carom::test::DisorderlyExecutor;
 
 class Random {
 public:
@@ -181,8 +168,8 @@ TEST(Solvers, IslandsDoAsTheReferenceInRandomWorlds) {
         const std::array<std::uint32_t, 3> windows{1, 2, 7};
         islands.set_min_windows(windows[seed % windows.size()]);
         if (seed % 4 == 1) islands.set_executor(carom::make_thread_executor(3));
-        if (seed % 4 == 2) islands.set_executor(std::make_shared<DisorderlyExecutor>(false));
-        if (seed % 4 == 3) islands.set_executor(std::make_shared<DisorderlyExecutor>(true));
+        if (seed % 4 == 2) islands.set_executor(std::make_shared<DisorderlyExecutor>(Disorder::reversed));
+        if (seed % 4 == 3) islands.set_executor(std::make_shared<DisorderlyExecutor>(Disorder::shuffled));
         impacts += expect_same(reference, islands, seed, "world " + std::to_string(seed));
         if (HasFailure()) return;
     }

@@ -1,0 +1,80 @@
+/// \file
+/// Scenes of few bodies that a world may get wrong for being so few, or so near each other.
+#pragma once
+
+#include "scene/generators.hpp"
+#include "scene/scene.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace carom::test {
+
+/// A cube from 0 to `side` with six faces of one kind.
+inline Box cube(double side, FaceKind kind) {
+    Box box{.min = {}, .max = {side, side, side}};
+    for (Face& face : box.faces) face.kind = kind;
+    return box;
+}
+
+/// Three tenths of the period is a ball's diameter: cells of that edge and some to spare do not fit three times along
+/// an axis, and then there is one cell alone.
+inline scene::Scene one_cell() {
+    constexpr double side = 3;
+    constexpr std::size_t count = 27;
+    constexpr double radius = 0.15 * side;
+    scene::Scene scene;
+    scene.options.region = cube(side, FaceKind::periodic);
+    scene.bodies = scene::BodyTable::of(count);
+    const scene::Cuboid space{{}, {side, side, side}};
+    scene.bodies.position = scene::lattice(space, scene::lattice_sites(space, count), count);
+    scene.bodies.radius.assign(count, radius);
+    scene::Random random = scene::Random::stream(7, 0);
+    scene.bodies.velocity = scene::uniform_velocities(count, -1, 1, random);
+    return scene;
+}
+
+/// They bounce on the floor, and on each other, until they lie there.
+inline scene::Scene three_bodies() {
+    scene::Scene scene;
+    scene.options.gravity = {0, 0, -9.8125};
+    scene.options.region = cube(1.5, FaceKind::reflecting);
+    scene.bodies = scene::BodyTable::of(3);
+    scene.bodies.position = {{0.375, 0.75, 0.5}, {0.75, 0.75, 1.0625}, {1.125, 0.8125, 0.5}};
+    scene.bodies.velocity = {{1, 0, 2}, {}, {-1.5, 0.125, 0}};
+    scene.bodies.radius = {0.25, 0.375, 0.125};
+    scene.bodies.mass = {1, 3, 0.5};
+    scene.bodies.restitution.assign(3, 0.96875);
+    scene.bodies.friction.assign(3, 0.25);
+    return scene;
+}
+
+/// The eight corners are one place: all bodies meet there at the same time, across the faces.
+inline scene::Scene corners() {
+    constexpr double side = 4;
+    constexpr double inset = 0.5;
+    scene::Scene scene;
+    scene.options.region = cube(side, FaceKind::periodic);
+    scene.bodies = scene::BodyTable::of(8);
+    scene.bodies.radius.assign(8, 0.375);
+    for (std::size_t k = 0; k < 8; ++k) {
+        const auto towards = [k](unsigned axis) { return (k >> axis & 1U) != 0 ? 1.0 : -1.0; };
+        const Vec3 outward{towards(0), towards(1), towards(2)};
+        const Vec3 centre{side / 2, side / 2, side / 2};
+        const Vec3 drift{0.5, 0.25, 0.125};
+        scene.bodies.position[k] = centre + (side / 2 - inset) * outward;
+        scene.bodies.velocity[k] = 2.0 * outward + drift;
+    }
+    return scene;
+}
+
+inline constexpr std::array<std::string_view, 3> small_scene_names{"one_cell", "three_bodies", "corners"};
+
+inline scene::Scene small_scene(std::string_view name, Precision precision) {
+    scene::Scene scene = name == "one_cell" ? one_cell() : name == "three_bodies" ? three_bodies() : corners();
+    scene.name = name;
+    scene.options.precision = precision;
+    return scene;
+}
+
+} // namespace carom::test
