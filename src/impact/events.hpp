@@ -38,6 +38,7 @@ class EventQueue {
 public:
     explicit EventQueue(const Bodies<Real>& bodies) : bodies_(&bodies) {}
 
+    void reserve(std::size_t events) { heap_.reserve(events); }
     void clear() { heap_.clear(); }
     [[nodiscard]] bool empty() const { return heap_.empty(); }
     [[nodiscard]] const Event& top() const { return heap_.front(); }

@@ -13,6 +13,8 @@ namespace carom::core {
 /// Finds a body's place in a short list. Open addressing with linear probing; cleared in the time of its entries.
 class IndexMap {
 public:
+    IndexMap() { keys_.reserve(entries_.size() / 2); }
+
     /// no_index if the key is not there.
     [[nodiscard]] std::uint32_t find(Index key) const {
         for (std::size_t k = home(key);; k = next(k)) {
@@ -52,6 +54,7 @@ private:
     }
     void grow() {
         const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
+        keys_.reserve(entries_.size() / 2);
         for (const Entry& entry : old) {
             if (entry.key != no_index) put(entry.key, entry.value);
         }

@@ -16,6 +16,9 @@ template <class Real>
 IslandSolver<Real>::IslandSolver(State<Real>& state, SerialSolver<Real>& serial)
     : state_(state), serial_(serial), vicinity_(state) {
     for (auto& workshop : workshops_) workshop = std::make_unique<Workshop<Real>>();
+    constexpr std::size_t few = 256;
+    for (std::vector<Meeting>& meetings : meetings_) meetings.reserve(few);
+    state_.bodies.recent_flights.reserve(few);
 }
 
 template <class Real>
@@ -83,7 +86,7 @@ void IslandSolver<Real>::predict_first() {
             if (!soon.at_wall()) prefetch(&memberships_[soon.b]);
             enter_first(found[k]);
         }
-        found.clear();
+        clear_for_reuse(found);
     }
 }
 
@@ -137,7 +140,7 @@ std::uint32_t IslandSolver<Real>::root_of(std::uint32_t member) {
 template <class Real>
 void IslandSolver<Real>::form_islands() {
     const auto count = static_cast<std::uint32_t>(members_.size());
-    islands_.clear();
+    clear_for_reuse(islands_);
     for (std::uint32_t m = 0; m < count; ++m) {
         const std::uint32_t root = root_of(m);
         if (root == m) {
@@ -183,6 +186,9 @@ bool IslandSolver<Real>::run_to_fixpoint() {
     pending_.resize(islands_.size());
     for (std::uint32_t id = 0; id < pending_.size(); ++id) pending_[id] = id;
     counts_.islands += pending_.size();
+    // Another time there may be some parts more.
+    const std::size_t parts = parts_of(pending_.size(), island_grain);
+    for (std::size_t k = 0; k < std::min(8 * parts, most_parts); ++k) workshops_[k]->expect(members_.size() / parts);
     while (!pending_.empty()) {
         ++counts_.rounds;
         run_pending();
@@ -326,21 +332,22 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
 /// Merges the islands that meet, and leaves what is to run next in pending_.
 template <class Real>
 void IslandSolver<Real>::merge() {
-    pending_.clear();
+    clear_for_reuse(pending_);
     for (std::vector<Meeting>& meetings : meetings_) {
         for (const Meeting& m : meetings) unite(m.island, members_[memberships_[m.other]].island);
-        meetings.clear();
+        clear_for_reuse(meetings);
     }
-    std::sort(pending_.begin(), pending_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    pending_.swap(merged_);
+    std::sort(merged_.begin(), merged_.end(), [this](std::uint32_t a, std::uint32_t b) {
         return std::pair(island_root(a), a) < std::pair(island_root(b), b);
     });
-    const std::vector<std::uint32_t> merged = std::exchange(pending_, {});
-    for (std::size_t begin = 0; begin < merged.size();) {
+    for (std::size_t begin = 0; begin < merged_.size();) {
         std::size_t end = begin + 1;
-        while (end < merged.size() && island_root(merged[end]) == island_root(merged[begin])) ++end;
-        join_group({merged.data() + begin, merged.data() + end});
+        while (end < merged_.size() && island_root(merged_[end]) == island_root(merged_[begin])) ++end;
+        join_group({merged_.data() + begin, merged_.data() + end});
         begin = end;
     }
+    clear_for_reuse(merged_);
 }
 
 /// Marks two islands to be run again as one.
@@ -404,7 +411,7 @@ void IslandSolver<Real>::commit(Outcome& outcome) {
     write_back();
     remember_flights();
     write_down(outcome);
-    turned_.clear();
+    clear_for_reuse(turned_);
     for (const Member& member : members_) {
         if (member.turned != nowhere) turned_.push_back(&turned_of(member));
     }
@@ -455,8 +462,7 @@ void IslandSolver<Real>::remember_flights() {
         if (member.turned == nowhere) continue;
         const std::uint32_t flight = turned_of(member).flight;
         if (flight == nowhere) continue;
-        bodies.recent_flights.push_back(
-            {bodies.trait[member.body].slot, workshops_[member.part]->flights[flight]});
+        bodies.recent_flights.push_back({bodies.trait[member.body].slot, workshops_[member.part]->flights[flight]});
     }
     sort_by_slot(bodies.recent_flights);
 }
@@ -465,7 +471,7 @@ void IslandSolver<Real>::remember_flights() {
 /// never comes before the one of its island that led to it.
 template <class Real>
 void IslandSolver<Real>::write_down(Outcome& outcome) {
-    places_.clear();
+    clear_for_reuse(places_);
     for (const Island& island : islands_) {
         Place latest;
         const Workshop<Real>& workshop = *workshops_[island.part];
@@ -493,6 +499,11 @@ void IslandSolver<Real>::write_down(Outcome& outcome) {
 /// Sorts by slices of the window: those of a slice are few.
 template <class Real>
 void IslandSolver<Real>::sort_places() {
+    constexpr std::size_t few = 512;
+    if (places_.size() < few) {
+        std::sort(places_.begin(), places_.end());
+        return;
+    }
     constexpr std::size_t slices = most_parts;
     const double per_second = slices / std::max(window_.to - window_.from, std::numeric_limits<double>::min());
     const auto slice_of = [&](const Place& place) {
@@ -516,14 +527,14 @@ void IslandSolver<Real>::clear_window() {
         memberships_[member.body] = nowhere;
         is_turned_[member.body / 64] = 0;
     }
-    members_.clear();
-    parents_.clear();
-    first_events_.clear();
-    first_members_.clear();
-    roster_.clear();
-    island_events_.clear();
-    for (std::vector<Meeting>& meetings : meetings_) meetings.clear();
-    pending_.clear();
+    clear_for_reuse(members_);
+    clear_for_reuse(parents_);
+    clear_for_reuse(first_events_);
+    clear_for_reuse(first_members_);
+    clear_for_reuse(roster_);
+    clear_for_reuse(island_events_);
+    for (std::vector<Meeting>& meetings : meetings_) clear_for_reuse(meetings);
+    clear_for_reuse(pending_);
 }
 
 template class IslandSolver<float>;

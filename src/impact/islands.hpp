@@ -127,6 +127,7 @@ private:
     std::vector<Index> roster_;
     std::vector<Event> island_events_;
     std::vector<std::uint32_t> pending_; ///< islands to run
+    std::vector<std::uint32_t> merged_;  ///< islands that are being merged
     std::vector<const TurnedBody*> turned_;
 
     /// The place of an occurrence in the order of all.

@@ -36,6 +36,8 @@ public:
     Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
 
     [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
+    /// Cells to sort anything into, between windows.
+    [[nodiscard]] Cells& lend_cells() { return neighbours_.lend_cells(); }
     /// Of all windows since it was asked last.
     SolverCosts take_costs() { return std::exchange(costs_, {}); }
 

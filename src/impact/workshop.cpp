@@ -3,6 +3,34 @@
 namespace carom::core {
 
 template <class Real>
+Workshop<Real>::Workshop() : queue_(local_.bodies) {
+    // What most islands have, and their lists.
+    constexpr std::size_t few = 16;
+    local_.bodies.motion.reserve(few);
+    local_.bodies.kind.reserve(few);
+    local_.bodies.trait.reserve(few);
+    local_.bodies.course.reserve(few);
+    guests_.reserve(few);
+    turned_.reserve(few);
+    own_strays_.reserve(few);
+    legs.reserve(4 * few);
+    flights.reserve(4 * few);
+    absorbed.reserve(4 * few);
+    strays.reserve(4 * few);
+    meetings.reserve(4 * few);
+    queue_.reserve(4 * few);
+}
+
+template <class Real>
+void Workshop<Real>::expect(std::size_t bodies) {
+    if (turned.capacity() >= bodies) return;
+    const std::size_t room = with_spare(bodies);
+    log.reserve(room);
+    log_ids.reserve(room);
+    turned.reserve(room);
+}
+
+template <class Real>
 void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicinity,
                           const std::vector<std::uint32_t>& memberships, const Window& window,
                           std::size_t most_occurrences) {
@@ -16,15 +44,15 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     local_.bounds = state.bounds;
     local_.resolution = state.resolution;
     local_.laws = state.laws;
-    log.clear();
-    log_ids.clear();
-    turned.clear();
-    legs.clear();
-    flights.clear();
-    holds.clear();
-    absorbed.clear();
-    strays.clear();
-    meetings.clear();
+    clear_for_reuse(log);
+    clear_for_reuse(log_ids);
+    clear_for_reuse(turned);
+    clear_for_reuse(legs);
+    clear_for_reuse(flights);
+    clear_for_reuse(holds);
+    clear_for_reuse(absorbed);
+    clear_for_reuse(strays);
+    clear_for_reuse(meetings);
 }
 
 template <class Real>

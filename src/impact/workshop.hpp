@@ -58,13 +58,15 @@ struct Outturn {
 template <class Real>
 class Workshop {
 public:
-    Workshop() : queue_(local_.bodies) {}
+    Workshop();
     Workshop(const Workshop&) = delete;
     Workshop& operator=(const Workshop&) = delete;
 
     /// Start of a window: `memberships[body]` is nowhere for a body that belongs to no island.
     void open(const State<Real>& state, const Vicinity<Real>& vicinity, const std::vector<std::uint32_t>& memberships,
               const Window& window, std::size_t most_occurrences);
+    /// So many bodies may turn.
+    void expect(std::size_t bodies);
     /// Resolves an island of these bodies, of which these are the first events.
     Outturn run(std::span<const Index> bodies, std::span<const Event> events);
     /// Asks for the memory of an island that is to run soon, in three stages.

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace carom::core {
@@ -170,24 +172,17 @@ void remove_body(Bodies<Real>& bodies, Index index) {
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by
-/// cycle, in place: a second copy of the arrays would double the memory.
+/// cycle, in place: a second copy of the arrays would double the memory. Uses the list up.
 template <class Real>
-void reorder(Bodies<Real>& bodies, const std::vector<Index>& order) {
-    std::vector<bool> done;
-    bodies.for_each_array([&](auto& array) {
-        done.assign(order.size(), false);
-        for (Index first = 0; first < order.size(); ++first) {
-            if (done[first] || order[first] == first) continue;
-            const auto kept = array[first];
-            Index k = first;
-            for (; order[k] != first; k = order[k]) {
-                array[k] = array[order[k]];
-                done[k] = true;
-            }
-            array[k] = kept;
-            done[k] = true;
+void reorder(Bodies<Real>& bodies, std::span<Index> order) {
+    for (Index first = 0; first < order.size(); ++first) {
+        for (Index k = first; order[k] != k;) {
+            const Index next = std::exchange(order[k], k);
+            if (next == first) break;
+            bodies.for_each_array([&](auto& array) { std::swap(array[k], array[next]); });
+            k = next;
         }
-    });
+    }
     for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.trait[k].slot].index = k;
 }
 

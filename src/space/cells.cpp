@@ -28,7 +28,7 @@ void Cells::start_levels(const Axes& axes) {
     }
     histogram_.assign(bin_count, 0);
     levels_.clear();
-    late_.clear();
+    clear_for_reuse(late_);
 }
 
 void Cells::count_diameter(const Ball& ball) { ++histogram_[length_bin(std::abs(2 * ball.radius))]; }
@@ -158,17 +158,16 @@ Cells::Span Cells::span_of(const Level& level, std::size_t axis, Tick centre, st
     return {first, std::min(last - first + 1, cells), cells};
 }
 
-std::vector<Index> Cells::tiled_order() const {
+std::span<Index> Cells::take_tiled_order() {
     constexpr std::uint32_t tile = 8;
-    std::vector<Index> order;
-    order.reserve(spatial_order().size());
+    auto end = place_.begin();
     const auto take_tile = [&](const Level& level, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
         for (std::uint32_t k = z; k < std::min(z + tile, level.cells[2]); ++k) {
             for (std::uint32_t j = y; j < std::min(y + tile, level.cells[1]); ++j) {
                 const std::uint32_t row = level.cell_at(0, j, k);
                 const auto from = body_.begin() + starts_[row + x];
                 const auto to = body_.begin() + starts_[row + std::min(x + tile, level.cells[0])];
-                order.insert(order.end(), from, to);
+                end = std::copy(from, to, end);
             }
         }
     };
@@ -179,7 +178,7 @@ std::vector<Index> Cells::tiled_order() const {
             }
         }
     }
-    return order;
+    return place_;
 }
 
 void Cells::find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector<Index>& found,
@@ -289,11 +288,13 @@ void Cells::view(BallSearcher& searcher, BallSearcher::View& view, const std::ar
 void BallSearcher::View::reserve(std::size_t balls) {
     const std::size_t needed = balls + simd_padding;
     if (x.size() >= needed) return;
-    x.resize(2 * needed);
-    y.resize(2 * needed);
-    z.resize(2 * needed);
-    radius.resize(2 * needed);
-    body.resize(2 * needed);
+    constexpr std::size_t least = 512;
+    const std::size_t room = std::max(least, 2 * needed);
+    x.resize(room);
+    y.resize(room);
+    z.resize(room);
+    radius.resize(room);
+    body.resize(room);
 }
 
 void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, std::vector<Index>& found) const {
@@ -320,7 +321,9 @@ void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, s
     BallSearcher::View& apart = searcher.apart_;
     view(searcher, apart, ball.centre);
     const std::size_t late = found.size();
-    found.resize(late + apart.size + simd_padding);
+    const std::size_t needed = late + apart.size + simd_padding;
+    if (found.capacity() < needed) found.reserve(2 * needed);
+    found.resize(needed);
     Index* const end = searcher.search_(apart.arrays(), apart.size, {0, 0, 0, ball.radius, self}, found.data() + late);
     found.resize(static_cast<std::size_t>(end - found.data()));
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "space/parallel.hpp"
+#include "space/reuse.hpp"
 #include "space/simd_search.hpp"
 
 #include <algorithm>
@@ -21,6 +22,11 @@ namespace carom::core {
 /// Searches among the balls of Cells, on one thread: the functions of the instruction set in use, and buffers.
 class BallSearcher {
 public:
+    BallSearcher() {
+        constexpr std::size_t few = 256;
+        runs_.reserve(few);
+    }
+
     /// To be called when the balls or the instruction set may have changed.
     void start() {
         packing_ = ball_packing();
@@ -85,8 +91,8 @@ public:
     /// The bodies in the order of their cells.
     [[nodiscard]] std::span<const Index> spatial_order() const { return {body_.data(), body_.size() - simd_padding}; }
     /// The same bodies, but tile by tile of some cells along each axis: all neighbours but those of a tile's faces are
-    /// near in memory.
-    [[nodiscard]] std::vector<Index> tiled_order() const;
+    /// near in memory. The order takes the place of what finds balls, which build() has to make anew.
+    [[nodiscard]] std::span<Index> take_tiled_order();
     /// The bodies whose balls of build() meet that of the k-th body in spatial order; to be called before any update().
     /// Writes to `found`, from `used` on, and moves `used` on. Cheap if k rises by one from call to call.
     void find_neighbours(std::uint32_t k, BallSearcher& searcher, std::vector<Index>& found, std::size_t& used) const;

@@ -5,11 +5,19 @@
 
 namespace carom::core {
 
+Neighbours::Neighbours() {
+    constexpr std::size_t few = 64;
+    for (Part& part : parts_) {
+        part.meeting.reserve(4 * few);
+        part.meetings.reserve(32 * few);
+    }
+}
+
 void Neighbours::start_lists(std::size_t bodies) {
     known_.assign(bodies, {});
-    links_.clear();
+    clear_for_reuse(links_);
     extending_ = false;
-    extended_.clear();
+    clear_for_reuse(extended_);
     extensions_from_ = 0;
     for (Part& part : parts_) part.used = 0;
 }

@@ -14,6 +14,8 @@ namespace carom::core {
 /// of places. A body that leaves its cover gets a new one, and new links.
 class Neighbours {
 public:
+    Neighbours();
+
     /// `cover_at(i)` is the cover of body i. Those of which `looks_up(i)` is false will never be asked for their
     /// neighbours, nor get links.
     template <class CoverAt, class Predicate>
@@ -25,6 +27,9 @@ public:
             make_lists(part, begin, end, looks_up);
         });
     }
+
+    /// Cells to sort anything into. All lists are gone until build().
+    [[nodiscard]] Cells& lend_cells() { return cells_; }
 
     /// How many neighbours build() found, over all bodies.
     [[nodiscard]] std::size_t found() const;
@@ -49,7 +54,7 @@ public:
             Part& part = parts_[k];
             for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
             for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
-            part.meetings.clear();
+            clear_for_reuse(part.meetings);
         }
     }
     /// Takes a body's cover away, and its neighbours.
@@ -101,9 +106,7 @@ public:
     }
 
     /// Asks for the memory that covers() and for_each() will need.
-    void prefetch_body(Index body) const {
-        prefetch(&known_[body]);
-    }
+    void prefetch_body(Index body) const { prefetch(&known_[body]); }
     /// Then, for that of its list.
     void prefetch_list(Index body) const {
         const Known& known = known_[body];

@@ -19,7 +19,7 @@ public:
 
     /// To be called when all bodies may have moved, or changed places in memory.
     void forget() {
-        cells_ = {};
+        if (valid_) cells_ = {};
         valid_ = false;
     }
 

@@ -140,7 +140,8 @@ HWY_INLINE HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
 /// The tracks of as many bodies of a list as a vector has lanes; the last one again behind the list's end. Whole tracks
 /// are loaded and transposed, which is faster than gathering them word by word.
 template <class D>
-HWY_INLINE HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const Index* bodies, std::size_t count) {
+HWY_INLINE HWY_ATTR TrackWords<hn::Vec<D>> load_tracks(D floats, const float* tracks, const Index* bodies,
+                                                       std::size_t count) {
     constexpr std::size_t words = sizeof(Track) / sizeof(float);
     static_assert(words == 8 && offsetof(Track, reach) == 12 && offsetof(Track, speed) == 16);
     const auto half_track = [&](std::size_t k, std::size_t half) HWY_ATTR {
@@ -208,9 +209,11 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto tolerance = hn::Set(floats, scale.tolerance * scale.tolerance);
         const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Gt(least_reach, zero)),
                                    hn::Gt(closing_squared, hn::Mul(speed, tolerance)));
-        const auto root = hn::Sub(closing_squared, hn::Mul(speed, outside));
-        const auto passes = hn::Or(hn::Le(closing, zero), hn::Lt(root, zero));
-        const auto raw = hn::Add(start, hn::Div(outside, hn::Add(closing, hn::Sqrt(root))));
+        const auto margin =
+            hn::Mul(hn::Set(floats, discriminant_margin), hn::Add(closing_squared, hn::Mul(speed, reach_squared)));
+        const auto discriminant = hn::Add(hn::Sub(closing_squared, hn::Mul(speed, outside)), margin);
+        const auto passes = hn::Or(hn::Le(closing, zero), hn::Lt(discriminant, zero));
+        const auto raw = hn::Add(start, hn::Div(outside, hn::Add(closing, hn::Sqrt(discriminant))));
         const auto comes = hn::Not(hn::Or(passes, hn::Gt(raw, hn::Set(floats, to))));
         // Also from where it is not a number.
         const auto time = hn::IfThenElse(hn::AndNot(is_inside, hn::Ge(raw, start)), raw, start);

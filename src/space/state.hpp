@@ -83,8 +83,7 @@ Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     }
     const auto mu_a = static_cast<double>(bodies.friction[a]);
     const auto mu_b = static_cast<double>(bodies.friction[b]);
-    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])),
-            std::sqrt(mu_a * mu_b)};
+    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])), std::sqrt(mu_a * mu_b)};
 }
 
 /// How a body meets a face: the face's e and mu where it has them, else the body's.

@@ -47,7 +47,7 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
     kicked_ = kicked;
     step_end_ = window.step_end;
     track_search_ = track_search();
-    exits_.clear();
+    clear_for_reuse(exits_);
     if (continues_epoch(window)) {
         ++window_;
         window_start_ = relative(window.from);
@@ -81,7 +81,7 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
     const double left = std::clamp(std::round((window.step_end - window.from) / duration), 1.0,
                                    static_cast<double>(Calendar::most_windows));
     const auto left_in_step = static_cast<std::uint32_t>(left);
-    disturbed_.clear();
+    clear_for_reuse(disturbed_);
     if (!kicked_ || !carry_on(window, left_in_step)) {
         const double way = (census.typical_speed + length(state_.laws.gravity) * duration) * duration;
         windows_ahead_ = windows_worthwhile(census, way);
@@ -167,7 +167,7 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
 template <class Real>
 void Vicinity<Real>::build(const Census& census, double way) {
     const std::size_t bodies = state_.bodies.size();
-    exits_.clear();
+    clear_for_reuse(exits_);
     const double windows = windows_ahead_ + spare_windows();
     horizon_ = length_ * windows;
     typical_room_ = way * windows;
@@ -239,7 +239,7 @@ void Vicinity<Real>::renew_disturbed() {
         plan_meetings(0, body, window_start_, window_);
         plan_alone(0, body, window_);
     }
-    disturbed_.clear();
+    clear_for_reuse(disturbed_);
 }
 
 /// Bodies that may leave their covers in this window get new ones, or balls along their paths if they are too fast.
@@ -248,8 +248,8 @@ void Vicinity<Real>::renew_exits() {
     constexpr std::size_t grain = 256;
     const auto looks_up = [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; };
     sort_and_unite(exits_);
-    fast_.clear();
-    renewed_.clear();
+    clear_for_reuse(fast_);
+    clear_for_reuse(renewed_);
     for (const Index body : exits_) {
         if (room_at(body, window_end_) < 0) {
             const float room = take_room(body, window_start_);
@@ -296,13 +296,13 @@ double Vicinity<Real>::held_way(const Motion<Real>& motion, const Vec3& accelera
 /// What the calendar has for this window.
 template <class Real>
 void Vicinity<Real>::collect_due() {
-    near_walls_.clear();
+    clear_for_reuse(near_walls_);
     calendar_.take_walls(window_, near_walls_);
     sort_and_unite(near_walls_);
-    due_.clear();
+    clear_for_reuse(due_);
     calendar_.take_pairs(window_, due_);
     constexpr std::size_t grain = 2048;
-    for (std::vector<Pair>& kept : kept_) kept.clear();
+    for (std::vector<Pair>& kept : kept_) clear_for_reuse(kept);
     for_each_in_parts(*executor_, due_.size(), grain, [&](std::size_t part, std::size_t k) {
         constexpr std::size_t ahead = 12;
         const Pair& soon = due_[std::min(k + ahead, due_.size() - 1)];
@@ -317,7 +317,7 @@ void Vicinity<Real>::collect_due() {
             calendar_.add_pair(part, window_of(static_cast<double>(time), window_ + 1), a, b);
         }
     });
-    candidates_.clear();
+    clear_for_reuse(candidates_);
     for (const std::vector<Pair>& kept : kept_) candidates_.insert(candidates_.end(), kept.begin(), kept.end());
 }
 

@@ -52,6 +52,8 @@ public:
 
     void use(Executor& executor) { executor_ = &executor; }
 
+    /// Cells to sort anything into; forget() is due then.
+    [[nodiscard]] Cells& lend_cells() { return neighbours_.lend_cells(); }
     /// Bodies were added, removed, moved, or changed places in memory.
     void forget() { lists_valid_ = epoch_valid_ = false; }
     /// A body's velocity or hold was changed from outside, between two steps.

@@ -104,8 +104,8 @@ template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
-      impacts_(other.impacts_), serial_(state_), islands_(state_, serial_),
-      placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_) {
+      impacts_(other.impacts_), serial_(state_), islands_(state_, serial_), placement_(state_),
+      last_start_(other.last_start_), last_step_(other.last_step_) {
     set_executor(other.executor_);
 }
 

@@ -139,7 +139,7 @@ template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
-    impacts_.clear();
+    clear_for_reuse(impacts_);
     outcome_ = {};
     outcome_.least_impulse = setting_.options.least_recorded_impulse;
     if (setting_.options.record_impacts) {
@@ -255,12 +255,12 @@ void Engine<Real>::keep_spatial_order() {
     const Census census = take_census_in_parts();
     const double scale = std::max(4 * census.mean_radius, setting_.resolution.metres);
     const Ticks ticks(state_.bounds, setting_.resolution, scale);
-    Cells cells;
+    Cells& cells = setting_.options.serial_reference ? serial_.lend_cells() : islands_.vicinity().lend_cells();
     cells.build(*executor_, size(), ticks.axes(census), [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
         return ticks.ball(m.x, {}, static_cast<double>(m.radius));
     });
-    reorder(state_.bodies, cells.tiled_order());
+    reorder(state_.bodies, cells.take_tiled_order());
     islands_.vicinity().forget();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #ifdef CAROM_WITH_TBB
+#    include <oneapi/tbb/info.h>
 #    include <oneapi/tbb/parallel_for.h>
 #    include <oneapi/tbb/task_arena.h>
 #endif
@@ -131,7 +132,9 @@ private:
 #ifdef CAROM_WITH_TBB
 class TbbExecutor : public Executor {
 public:
-    explicit TbbExecutor(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {}
+    /// oneTBB has as many threads as there are cores, and says so on the standard error output when asked for more.
+    explicit TbbExecutor(unsigned threads)
+        : threads_(threads), arena_(std::min(static_cast<int>(threads), tbb::info::default_concurrency())) {}
 
     [[nodiscard]] unsigned threads() const noexcept override { return threads_; }
     void run(std::size_t parts, Task task, void* context) override {

@@ -161,8 +161,8 @@ TEST_P(CellsTest, LateBallsAreFound) {
 }
 
 TEST_P(CellsTest, TilesHaveEveryBodyOnce) {
-    const World world(GetParam());
-    std::vector<Index> order = world.cells.tiled_order();
+    World world(GetParam());
+    const std::span<Index> order = world.cells.take_tiled_order();
     std::sort(order.begin(), order.end());
     ASSERT_EQ(order.size(), world.balls.size());
     for (Index i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
