@@ -11,7 +11,7 @@ namespace carom::core {
 /// Memory in whole cache lines: elements of 16, 32 or 64 bytes never lie in two of them.
 template <class T>
 struct LineAllocator {
-    using value_type = T;
+    using value_type = T; // NOLINT(readability-identifier-naming): std::vector asks for it
     static constexpr std::align_val_t line{64};
 
     LineAllocator() = default;

@@ -22,6 +22,7 @@ void* counted(void* memory) {
 std::uint64_t carom::test::allocations() noexcept { return count.load(std::memory_order_relaxed); }
 
 // The array and the nothrow forms of the standard library come here too.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): what else should operator new be made of.
 void* operator new(std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const auto unit = static_cast<std::size_t>(alignment);
@@ -31,3 +32,4 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+// NOLINTEND(cppcoreguidelines-no-malloc)
