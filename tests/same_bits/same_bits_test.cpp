@@ -5,6 +5,7 @@
 #include "hash/small_scenes.hpp"
 #include "same_bits/disorderly_executor.hpp"
 #include "same_bits/keeps_simd_target.hpp"
+#include "same_bits/scattering_executor.hpp"
 #include "scene/workloads.hpp"
 
 #include <carom/world.hpp>
@@ -25,6 +26,7 @@ using carom::scene::Scene;
 using carom::test::Disorder;
 using carom::test::DisorderlyExecutor;
 using carom::test::KeepsSimdTarget;
+using carom::test::ScatteringExecutor;
 
 struct Tested {
     const char* name;
@@ -113,7 +115,7 @@ TEST_P(SameBits, OnAnyNumberOfThreads) {
         const std::uint64_t merges = expect_same(count, [=](World& world) { world.set_threads(threads); });
         EXPECT_EQ(merges > 0, GetParam().merges) << count;
     }
-    for (const unsigned threads : {2U, 8U}) {
+    for (const unsigned threads : {2U, 3U, 8U}) {
         expect_same(std::to_string(threads) + " threads of the standard library",
                     [=](World& world) { world.set_executor(carom::make_thread_executor(threads)); });
     }
@@ -124,8 +126,8 @@ TEST_P(SameBits, OnAnyNumberOfThreads) {
 }
 
 // Alone, because `./dev sanitize` has ThreadSanitizer watch it.
-TEST_P(SameBits, OnThreadsOfTheStandardLibrary) {
-    expect_same("3 threads", [](World& world) { world.set_executor(carom::make_thread_executor(3)); });
+TEST_P(SameBits, OnScatteredThreads) {
+    expect_same("scattered", [](World& world) { world.set_executor(std::make_shared<ScatteringExecutor>()); });
 }
 
 TEST_P(SameBits, WithEveryInstructionSet) {
