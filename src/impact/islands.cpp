@@ -16,9 +16,6 @@ template <class Real>
 IslandSolver<Real>::IslandSolver(State<Real>& state, SerialSolver<Real>& serial)
     : state_(state), serial_(serial), vicinity_(state) {
     for (auto& workshop : workshops_) workshop = std::make_unique<Workshop<Real>>();
-    constexpr std::size_t few = 256;
-    for (std::vector<Meeting>& meetings : meetings_) meetings.reserve(few);
-    state_.bodies.recent_flights.reserve(few);
 }
 
 template <class Real>
@@ -451,7 +448,9 @@ void IslandSolver<Real>::write_holds_back() {
 
 template <class Real>
 void IslandSolver<Real>::remember_flights() {
+    constexpr std::size_t few = 64;
     Bodies<Real>& bodies = state_.bodies;
+    bodies.recent_flights.reserve(few);
     const double collapse_time = state_.laws.collapse_time;
     std::erase_if(bodies.recent_flights, [&](const RecentFlight& recent) {
         const std::uint32_t membership = memberships_[bodies.slots[recent.slot].index];

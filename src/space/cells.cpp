@@ -15,6 +15,9 @@ double bin_end(std::uint32_t bin) { return static_cast<double>(std::bit_cast<flo
 /// Cells per body that a grid may have at most: empty cells cost little time but memory.
 constexpr double cells_per_body = 4;
 
+/// Room for what lies around a ball, which varies a lot.
+std::size_t roomy(std::size_t needed) { return std::max<std::size_t>(512, 2 * needed); }
+
 /// More than the roundings of ticks and of the test whether balls meet.
 constexpr double tick_margin = 3;
 constexpr double relative_margin = 1e-5;
@@ -288,8 +291,7 @@ void Cells::view(BallSearcher& searcher, BallSearcher::View& view, const std::ar
 void BallSearcher::View::reserve(std::size_t balls) {
     const std::size_t needed = balls + simd_padding;
     if (x.size() >= needed) return;
-    constexpr std::size_t least = 512;
-    const std::size_t room = std::max(least, 2 * needed);
+    const std::size_t room = roomy(needed);
     x.resize(room);
     y.resize(room);
     z.resize(room);
@@ -322,7 +324,7 @@ void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, s
     view(searcher, apart, ball.centre);
     const std::size_t late = found.size();
     const std::size_t needed = late + apart.size + simd_padding;
-    if (found.capacity() < needed) found.reserve(2 * needed);
+    if (found.capacity() < needed) found.reserve(roomy(needed));
     found.resize(needed);
     Index* const end = searcher.search_(apart.arrays(), apart.size, {0, 0, 0, ball.radius, self}, found.data() + late);
     found.resize(static_cast<std::size_t>(end - found.data()));

@@ -5,14 +5,6 @@
 
 namespace carom::core {
 
-Neighbours::Neighbours() {
-    constexpr std::size_t few = 64;
-    for (Part& part : parts_) {
-        part.meeting.reserve(4 * few);
-        part.meetings.reserve(32 * few);
-    }
-}
-
 void Neighbours::start_lists(std::size_t bodies) {
     known_.assign(bodies, {});
     clear_for_reuse(links_);

@@ -14,8 +14,6 @@ namespace carom::core {
 /// of places. A body that leaves its cover gets a new one, and new links.
 class Neighbours {
 public:
-    Neighbours();
-
     /// `cover_at(i)` is the cover of body i. Those of which `looks_up(i)` is false will never be asked for their
     /// neighbours, nor get links.
     template <class CoverAt, class Predicate>
@@ -46,15 +44,18 @@ public:
     /// Links some bodies, and all whose covers meet theirs.
     template <class Predicate>
     void link_all(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
-        constexpr std::size_t few = 64;
-        for_parts(executor, bodies.size(), few, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        constexpr std::size_t link_grain = 64;
+        for_parts(executor, bodies.size(), link_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
             find_meeting(parts_[part], bodies.subspan(begin, end - begin));
         });
-        for (std::size_t k = 0; k < parts_of(bodies.size(), few); ++k) {
-            Part& part = parts_[k];
+        // Another time there may be a part more: it, too, gets room.
+        const std::size_t parts = std::min(parts_of(bodies.size(), link_grain) + 1, most_parts);
+        for (Part& part : std::span(parts_).first(parts)) {
             for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
             for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
-            clear_for_reuse(part.meetings);
+            most_meetings_ = std::max(most_meetings_, part.meetings.size());
+            // Covers run out in bursts.
+            clear_for_reuse(part.meetings, 2 * most_meetings_);
         }
     }
     /// Takes a body's cover away, and its neighbours.
@@ -105,7 +106,7 @@ public:
         for (std::uint32_t k = known_[body].newest_link; k != nothing; k = links_[k].next) f(links_[k].other);
     }
 
-    /// Asks for the memory that covers() and for_each() will need.
+    /// Asks for the memory that for_each() will need.
     void prefetch_body(Index body) const { prefetch(&known_[body]); }
     /// Then, for that of its list.
     void prefetch_list(Index body) const {
@@ -180,7 +181,8 @@ private:
 
     Cells cells_;
     std::array<Part, most_parts> parts_;
-    std::vector<Known> known_; ///< per body
+    std::size_t most_meetings_ = 0; ///< of a part so far
+    std::vector<Known> known_;      ///< per body
     std::vector<Link> links_;
     bool extending_ = false;
     std::size_t extensions_from_ = 0; ///< in the cells
