@@ -2,22 +2,32 @@
 
 #include <carom/collision.hpp>
 
+#include <array>
+
 namespace carom::core {
 
 namespace {
 
-/// Takes the components along the supports' normals out of a vector; a few sweeps do for supports that are not square.
-Vec3 along_supports(Vec3 vector, const std::vector<Support>& supports) {
-    constexpr int sweeps = 8;
-    const std::size_t needed = supports.size() == 1 ? 1 : sweeps;
-    for (std::size_t sweep = 0; sweep < needed; ++sweep) {
-        for (const Support& s : supports) vector -= s.normal * dot(vector, s.normal);
-    }
-    return vector;
-}
-
 /// What rounding makes of a direction along a support: a blow in it does not lift a body.
 constexpr double along_rounding = 1e-8;
+
+/// The part of a vector that is square to the normals of at most three supports. By an orthonormal base of what they
+/// span (Gram and Schmidt): sweeps over the normals would hardly brake what runs into a wedge of almost opposite ones.
+Vec3 along_supports(const Vec3& vector, const std::vector<Support>& supports) {
+    std::array<Vec3, 3> base;
+    std::size_t rank = 0;
+    const auto square_to_base = [&](Vec3 v) {
+        for (std::size_t i = 0; i < rank; ++i) v -= base[i] * dot(v, base[i]);
+        return v;
+    };
+    for (const Support& s : supports) {
+        // Twice: what is left of a normal that almost lies in the span has its rounding.
+        const Vec3 rest = square_to_base(square_to_base(s.normal));
+        const double size = length(rest);
+        if (rank < base.size() && size > along_rounding) base[rank++] = rest / size;
+    }
+    return rank == base.size() ? Vec3{} : square_to_base(vector);
+}
 
 template <class Real>
 Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
@@ -85,7 +95,11 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
     if (hold.sticks) {
         hold.friction = v / -duration - slide;
     } else if (mu > 0) {
-        hold.friction = (speed > 0 ? v / speed : pull / length(pull)) * -grip;
+        const Vec3 slip = speed > 0 ? v / speed : pull / length(pull);
+        // A body that slides up a slope turns on the way, and its friction would then drive it: no more of it than
+        // takes energy up to the end.
+        const double most = duration > 0 ? std::max(0.0, 2 * speed / duration + dot(slip, pull)) : grip;
+        hold.friction = slip * -std::min(grip, most);
     } else {
         hold.friction = {};
     }

@@ -74,6 +74,32 @@ TEST(Rest, ASlopeHoldsBelowTheAngleOfFrictionOnly) {
     }
 }
 
+// It turns somewhere within a step: friction must not go on driving it the old way.
+TEST(Rest, FrictionNeverDrivesWhatTurnsOnASlope) {
+    const double angle = 0.4;
+    const double mu = 0.1;
+    const Vec3 normal{std::sin(angle), 0, std::cos(angle)};
+    const Vec3 up{-std::cos(angle), 0, std::sin(angle)};
+    const double pull = g * std::sin(angle);
+    const double grip = mu * g * std::cos(angle);
+    for (int i = 1; i <= 50; ++i) {
+        const double speed = 0.013 * i; // m/s
+        World world(floor_world(normal));
+        const BodyId ball =
+            world.add({.position = normal * 0.5, .velocity = up * speed, .restitution = 0, .friction = mu});
+        double before = world.energy().total();
+        while (world.time() < 1) {
+            world.step(1.0 / 60);
+            EXPECT_LE(world.energy().total(), before + 1e-9) << world.time();
+            before = world.energy().total();
+        }
+        // In the one step in which it turns, friction may be missing.
+        const double expected = (pull - grip) * (world.time() - speed / (pull + grip));
+        EXPECT_NEAR(length(world.get(ball).velocity), expected, 2 * grip / 60) << speed;
+        EXPECT_TRUE(world.held(ball));
+    }
+}
+
 TEST(Rest, AFrictionlessSlopeIsAParabolaInOneDimension) {
     const double angle = 0.4;
     const Vec3 normal{std::sin(angle), 0, std::cos(angle)};
