@@ -12,7 +12,8 @@ constexpr std::uint32_t quick_impacts_allowed = 8;
 
 /// Jam rule: bodies that fill the room between faces or static bodies have impacts without end at one and the same
 /// place. After so many of them they stop. What ends on its own takes fewer: a body that touches a wall and is struck
-/// by one of k times its mass has about 0.8 sqrt(k) impacts with the wall, and a wedge of angle w at most pi / w.
+/// by one of k times its mass has about 0.8 sqrt(k) impacts with the wall, and a wedge of angle w at most pi / w. An
+/// elastic body does not rest: it gets the larger number at walls, too.
 constexpr std::uint16_t still_bounces_allowed = 64;
 constexpr std::uint16_t still_impacts_allowed = 10000;
 
@@ -24,9 +25,9 @@ struct Haste {
     bool jams = false;      ///< too many at one place: the jam rule makes further ones inelastic
 };
 
-/// Counts an impact of a body.
+/// Counts an impact of a body; `wears_down`: with a support, which takes energy.
 template <class Real>
-Haste count_impact(State<Real>& state, Index body, double time, double approach, bool at_support) {
+Haste count_impact(State<Real>& state, Index body, double time, double approach, bool wears_down) {
     Flight& flight = state.bodies.course[body].flight;
     const double duration = time - flight.last_impact;
     const bool lasts = flight.quick_impacts > 0 && duration <= state.laws.collapse_time;
@@ -39,7 +40,7 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
     flight.quick_impacts = counted(true, flight.quick_impacts, quick_impacts_allowed);
     flight.still_impacts = static_cast<std::uint16_t>(counted(still, flight.still_impacts, still_impacts_allowed));
     flight.still_bounces =
-        static_cast<std::uint16_t>(counted(still && at_support, flight.still_bounces, still_bounces_allowed));
+        static_cast<std::uint16_t>(counted(still && wears_down, flight.still_bounces, still_bounces_allowed));
     flight.last_impact = time;
     return {.lasts = lasts,
             .collapses = flight.quick_impacts > quick_impacts_allowed,
@@ -116,7 +117,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     bool stays = false;
     bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
-        Haste haste = count_impact(state, body, time, approach, true);
+        Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
         haste.lasts = haste.lasts && !(pressure_here(state, body, support, v).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it

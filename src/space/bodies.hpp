@@ -33,7 +33,7 @@ struct Flight {
     double last_impact = 0;          ///< s since the start of the step; means nothing while `quick_impacts` is 0
     std::uint32_t quick_impacts = 0; ///< impacts so far whose flights in between were shorter than collapse_time
     std::uint16_t still_impacts = 0; ///< the last ones of these, between which nothing moved by more than rounding
-    std::uint16_t still_bounces = 0; ///< the last ones of those, all with faces or static bodies
+    std::uint16_t still_bounces = 0; ///< the last ones of those, all with faces or static bodies, e < 1
 };
 
 /// The flight of a body that met something within collapse_time: all others have none to remember.

