@@ -183,9 +183,7 @@ bool IslandSolver<Real>::run_to_fixpoint() {
     pending_.resize(islands_.size());
     for (std::uint32_t id = 0; id < pending_.size(); ++id) pending_[id] = id;
     counts_.islands += pending_.size();
-    // Another time there may be some parts more.
-    const std::size_t parts = parts_of(pending_.size(), island_grain);
-    for (std::size_t k = 0; k < std::min(8 * parts, most_parts); ++k) workshops_[k]->expect(members_.size() / parts);
+    expect_shares();
     while (!pending_.empty()) {
         ++counts_.rounds;
         run_pending();
@@ -199,6 +197,17 @@ bool IslandSolver<Real>::run_to_fixpoint() {
     }
     for (const auto& workshop : workshops_) costs_.predictions += workshop->predictions();
     return pending_.empty();
+}
+
+/// Sees to it that a window with as many bodies finds room in the workshops, also if it has some parts more or less.
+template <class Real>
+void IslandSolver<Real>::expect_shares() {
+    if (pending_.empty()) return;
+    const std::size_t parts = parts_of(pending_.size(), island_grain);
+    if (parts + parts / 2 + 1 > expected_parts_) expected_parts_ = std::min(2 * parts + 2, most_parts);
+    const std::size_t islands = std::max(pending_.size() / parts, island_grain + island_grain / parts) + 1;
+    const std::size_t bodies = islands * members_.size() / pending_.size() + 1;
+    for (std::size_t k = 0; k < expected_parts_; ++k) workshops_[k]->expect(bodies);
 }
 
 template <class Real>

@@ -23,11 +23,12 @@ Workshop<Real>::Workshop() : queue_(local_.bodies) {
 
 template <class Real>
 void Workshop<Real>::expect(std::size_t bodies) {
-    if (turned.capacity() >= bodies) return;
-    const std::size_t room = with_spare(bodies);
-    log.reserve(room);
-    log_ids.reserve(room);
-    turned.reserve(room);
+    if (turned.capacity() >= bodies + fluctuation(bodies, 1)) return;
+    turned.reserve(with_spare(bodies));
+    // Two bodies to an impact, but some have more than one.
+    const std::size_t impacts = bodies / 2 + bodies / 8;
+    log.reserve(with_spare(impacts));
+    log_ids.reserve(with_spare(impacts));
 }
 
 template <class Real>

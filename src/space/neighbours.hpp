@@ -44,19 +44,9 @@ public:
     /// Links some bodies, and all whose covers meet theirs.
     template <class Predicate>
     void link_all(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
-        constexpr std::size_t link_grain = 64;
-        for_parts(executor, bodies.size(), link_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
-            find_meeting(parts_[part], bodies.subspan(begin, end - begin));
-        });
-        // Another time there may be a part more: it, too, gets room.
-        const std::size_t parts = std::min(parts_of(bodies.size(), link_grain) + 1, most_parts);
-        for (Part& part : std::span(parts_).first(parts)) {
-            for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
-            for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
-            most_meetings_ = std::max(most_meetings_, part.meetings.size());
-            // Covers run out in bursts.
-            clear_for_reuse(part.meetings, 2 * most_meetings_);
-        }
+        // Covers run out in bursts: what is found waits in lists that must not become long.
+        for (; bodies.size() > batch; bodies = bodies.subspan(batch)) link_batch(executor, bodies.first(batch), looks_up);
+        link_batch(executor, bodies, looks_up);
     }
     /// Takes a body's cover away, and its neighbours.
     void uncover(Index body) {
@@ -128,6 +118,8 @@ public:
 private:
     static constexpr std::uint32_t nothing = 0xffffffffU;
     static constexpr std::size_t grain = 2048;
+    static constexpr std::size_t batch = 1024; ///< bodies that are linked at a time
+    static constexpr std::size_t link_grain = 64;
     /// A list is named by its part and by where it begins there: with its length.
     static constexpr std::uint32_t place_bits = 27;
     static constexpr std::uint32_t place_mask = (1U << place_bits) - 1;
@@ -169,6 +161,20 @@ private:
     }
     void make_list(Part& part, std::uint32_t number, std::size_t k);
 
+    template <class Predicate>
+    void link_batch(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
+        for_parts(executor, bodies.size(), link_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+            find_meeting(parts_[part], bodies.subspan(begin, end - begin));
+        });
+        for (Part& part : std::span(parts_).first(parts_of(batch, link_grain))) {
+            for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
+            for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
+            most_meetings_ = std::max(most_meetings_, part.meetings.size());
+            part.meetings.clear();
+            // Any part may become the longest, and a batch differs from the next.
+            if (part.meetings.capacity() < 3 * most_meetings_ / 2) part.meetings.reserve(3 * most_meetings_);
+        }
+    }
     void find_meeting(Part& part, std::span<const Index> bodies) const;
     /// Who has the body in a list of build() has it twice then: to find that out would cost more.
     template <class Predicate>

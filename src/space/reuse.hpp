@@ -2,6 +2,7 @@
 /// Lists that are filled anew in each window.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 namespace carom::core {
@@ -9,15 +10,20 @@ namespace carom::core {
 /// Room for the odd entry.
 inline constexpr std::size_t few_entries = 16;
 
+/// By how much a count of independent events may differ from another time: so many standard deviations.
+inline std::size_t fluctuation(std::size_t count, unsigned deviations) {
+    return static_cast<std::size_t>(deviations * std::sqrt(static_cast<double>(count))) + few_entries;
+}
+
 /// More than what a count in a steady state rises to, if it was `size` once.
-inline std::size_t with_spare(std::size_t size) { return 2 * size + 4 * few_entries; }
+inline std::size_t with_spare(std::size_t size) { return size + size / 8 + fluctuation(size, 5); }
 
 /// Empties a list that is to become about as long again, and leaves it so much room that a world in a steady state
 /// allocates no memory. `peak`: how long such lists became at most, if there are several like it.
 template <class List>
 void clear_for_reuse(List& list, std::size_t peak) {
     list.clear();
-    if (peak > 0 && list.capacity() < peak + peak / 8 + few_entries) list.reserve(with_spare(peak));
+    if (peak > 0 && list.capacity() < peak + fluctuation(peak, 1)) list.reserve(with_spare(peak));
 }
 template <class List>
 void clear_for_reuse(List& list) {
