@@ -72,7 +72,7 @@ void set_and_book(State<Real>& state, Index body, const Vec3& v, Entry& entry) {
     Motion<Real>& motion = state.bodies.motion[body];
     const Vec3 before = velocity_of(motion);
     motion.v = rounded<Real>(v);
-    entry.outer_impulse += (velocity_of(motion) - before) * static_cast<double>(state.bodies.trait[body].mass);
+    entry.outer_impulse += (velocity_of(motion) - before) * static_cast<double>(state.bodies.mass[body]);
 }
 
 /// How a held body moves: along its supports, slowed by friction, which brings it to a stop but never turns it back.
@@ -83,7 +83,7 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
     const Vec3 v = along_supports(before, hold.supports);
     set_and_book(state, body, v, entry);
     const double lost = length_squared(before) - length_squared(velocity_of(motion));
-    entry.lost_to_restitution += 0.5 * static_cast<double>(state.bodies.trait[body].mass) * lost;
+    entry.lost_to_restitution += 0.5 * static_cast<double>(state.bodies.mass[body]) * lost;
     const Vec3 all = state.laws.gravity + attraction(state, body);
     const Vec3 pull = along_supports(all, hold.supports);
     const Vec3 slide = along_supports(state.laws.gravity, hold.supports);
@@ -110,7 +110,7 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
 template <class Real>
 bool presses(const State<Real>& state, Index body, const Hold& hold, const Support& support) {
     const Motion<Real>& motion = state.bodies.motion[body];
-    const std::uint32_t slot = state.bodies.trait[body].slot;
+    const std::uint32_t slot = state.bodies.slot[body];
     if (pressure_on(state, motion, slot, support, velocity_of(motion)).acceleration > 0) return true;
     std::vector<Support> others = hold.supports;
     std::erase_if(others, [&](const Support& s) { return s.code == support.code; });
@@ -160,7 +160,7 @@ Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::
 template <class Real>
 void hold_against(State<Real>& state, Index body, const Support& support, double remaining, Entry& entry) {
     state.bodies.kind[body] = Kind::held;
-    Hold& hold = state.bodies.holds[state.bodies.trait[body].slot];
+    Hold& hold = state.bodies.holds[state.bodies.slot[body]];
     constexpr std::size_t most = 3;
     if (hold.supports.size() == most) hold.supports.erase(hold.supports.begin());
     hold.supports.push_back(support);
@@ -197,7 +197,7 @@ bool moves_along_supports(const State<Real>& state, Index body, const Vec3& dire
 
 template <class Real>
 void refresh_hold(State<Real>& state, Index body, double remaining, Entry& entry) {
-    derive_motion(state, body, state.bodies.holds[state.bodies.trait[body].slot], remaining, entry);
+    derive_motion(state, body, state.bodies.holds[state.bodies.slot[body]], remaining, entry);
 }
 
 template <class Real>

@@ -27,9 +27,9 @@ using EventIds = std::pair<std::uint32_t, std::uint32_t>;
 
 template <class Real>
 EventIds ids_of(const Bodies<Real>& bodies, const Event& event) {
-    const std::uint32_t a = bodies.trait[event.a].slot;
+    const std::uint32_t a = bodies.slot[event.a];
     if (event.at_wall()) return {a, event.b};
-    return std::minmax(a, bodies.trait[event.b].slot);
+    return std::minmax(a, bodies.slot[event.b]);
 }
 
 /// Events by (time, ids): the order is a function of the state alone, never of the order of discovery.

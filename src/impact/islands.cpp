@@ -307,7 +307,7 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
         return false;
     }
     const auto for_each_leg = [this](const Member& member, auto&& f) {
-        const std::uint32_t slot = state_.bodies.trait[member.body].slot;
+        const std::uint32_t slot = state_.bodies.slot[member.body];
         const auto path_of = [slot](const Flown<Real>& flown) {
             return Path<Real>{&flown.motion, flown.acceleration, flown.kind, slot};
         };
@@ -450,7 +450,7 @@ void IslandSolver<Real>::write_holds_back() {
         release(bodies, member.body);
         bodies.kind[member.body] = turned.kind;
         if (turned.hold != nowhere) {
-            bodies.holds[bodies.trait[member.body].slot] = workshops_[member.part]->holds[turned.hold];
+            bodies.holds[bodies.slot[member.body]] = workshops_[member.part]->holds[turned.hold];
         }
     }
 }
@@ -470,7 +470,7 @@ void IslandSolver<Real>::remember_flights() {
         if (member.turned == nowhere) continue;
         const std::uint32_t flight = turned_of(member).flight;
         if (flight == nowhere) continue;
-        bodies.recent_flights.push_back({bodies.trait[member.body].slot, workshops_[member.part]->flights[flight]});
+        bodies.recent_flights.push_back({bodies.slot[member.body], workshops_[member.part]->flights[flight]});
     }
     sort_by_slot(bodies.recent_flights);
 }

@@ -116,7 +116,7 @@ private:
     bool given_up_ = false; ///< this window is for the serial solver
 
     std::array<std::unique_ptr<Workshop<Real>>, most_parts> workshops_;
-    std::size_t expected_parts_ = 0; ///< workshops that have room for their share of a window
+    std::size_t expected_parts_ = 0;                        ///< workshops that have room for their share of a window
     std::array<std::vector<Event>, most_parts> found_;      ///< first events
     std::array<std::vector<Meeting>, most_parts> meetings_; ///< of paths
     std::vector<std::uint32_t> memberships_;                ///< per body: in members_, or nowhere

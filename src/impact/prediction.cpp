@@ -143,7 +143,7 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
         return predict_free_pair(state, bodies.motion[i], bodies.motion[j], until);
     }
     if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
-    if (rests_on(bodies, i, bodies.trait[j].slot) || rests_on(bodies, j, bodies.trait[i].slot)) return no_impact;
+    if (rests_on(bodies, i, bodies.slot[j]) || rests_on(bodies, j, bodies.slot[i])) return no_impact;
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
 
@@ -172,7 +172,7 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const Vec3 n = state.bounds.normal(face, m.x, {}, state.resolution);
     if (std::abs(dot(v, n)) > approach_rounding<Real>(v, {}, n)) return m.t + time;
     const Support support = support_by_wall(state, wall, n, m);
-    const double pressing = pressure_on(state, m, bodies.trait[body].slot, support, v).acceleration;
+    const double pressing = pressure_on(state, m, bodies.slot[body], support, v).acceleration;
     const bool pressed = std::max(pressing, dot(a, n)) > 0;
     return pressed ? m.t : no_impact;
 }

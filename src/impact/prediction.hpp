@@ -21,7 +21,7 @@ struct Path {
 
 template <class Real>
 Path<Real> path_of(const State<Real>& state, Index i) {
-    return {&state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i], state.bodies.trait[i].slot};
+    return {&state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i], state.bodies.slot[i]};
 }
 
 /// Two bodies seen at one time.

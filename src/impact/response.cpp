@@ -63,7 +63,7 @@ void set_velocity(State<Real>& state, Index body, const Vec3& v) {
 
 template <class Real>
 double mass_of(const State<Real>& state, Index body) {
-    return static_cast<double>(state.bodies.trait[body].mass);
+    return static_cast<double>(state.bodies.mass[body]);
 }
 
 void apply_haste(const Haste& haste, const Laws& laws, double approach, double speed, Encounter& encounter,
@@ -94,7 +94,7 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
 /// What presses a body into a support that it meets: for one that lies already, also its sliding there.
 template <class Real>
 Pressure pressure_here(const State<Real>& state, Index body, const Support& support, const Vec3& v) {
-    Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.trait[body].slot, support, v);
+    Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.slot[body], support, v);
     pressure.acceleration = std::max(pressure.acceleration, dot(acceleration_of(state, body), support.normal));
     return pressure;
 }
@@ -158,7 +158,7 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     support.friction = encounter.friction;
     take_part(state, event.a, event.time, occurrence.entry);
     occurrence.impact = {.offset = event.time,
-                         .a = state.bodies.trait[event.a].slot,
+                         .a = state.bodies.slot[event.a],
                          .face = wall.face,
                          .x = m.x,
                          .arm = support.normal * static_cast<double>(m.radius),
@@ -328,7 +328,7 @@ template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
     const Encounter encounter = encounter_of(state, body, fixed);
-    Support support = support_by_body(bodies.trait[fixed].slot, n, bodies.motion[body], bodies.motion[fixed]);
+    Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed]);
     support.friction = encounter.friction;
     meet_support(state, body, support, encounter, occurrence);
 }
@@ -336,7 +336,7 @@ void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occ
 template <class Real>
 void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
-    const bool in_order = bodies.trait[event.a].slot < bodies.trait[event.b].slot;
+    const bool in_order = bodies.slot[event.a] < bodies.slot[event.b];
     const Index a = in_order ? event.a : event.b;
     const Index b = in_order ? event.b : event.a;
     const Path<Real> path_a = path_of(state, a);
@@ -346,8 +346,8 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
     take_part(state, a, event.time, occurrence.entry);
     take_part(state, b, event.time, occurrence.entry);
     occurrence.impact = {.offset = event.time,
-                         .a = bodies.trait[a].slot,
-                         .b = bodies.trait[b].slot,
+                         .a = bodies.slot[a],
+                         .b = bodies.slot[b],
                          .x = bodies.motion[a].x,
                          .arm = n * static_cast<double>(bodies.motion[a].radius),
                          .normal = n};

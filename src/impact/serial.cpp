@@ -45,7 +45,7 @@ void SerialSolver<Real>::remember_flights(double now) {
     for (Index i = 0; i < bodies.size(); ++i) {
         const Flight& flight = bodies.course[i].flight;
         if (is_recent(flight, now, state_.laws.collapse_time)) {
-            bodies.recent_flights.push_back({bodies.trait[i].slot, flight});
+            bodies.recent_flights.push_back({bodies.slot[i], flight});
         }
     }
     sort_by_slot(bodies.recent_flights);
@@ -126,7 +126,7 @@ void SerialSolver<Real>::prefetch_next() const {
         if (next == nullptr) return;
         for (const Index body : {next->a, next->at_wall() ? next->a : next->b}) {
             prefetch_object(&state_.bodies.motion[body]);
-            prefetch(&state_.bodies.trait[body]);
+            prefetch(&state_.bodies.slot[body]);
             if (k == 0) {
                 prefetch_neighbours(body);
             } else {

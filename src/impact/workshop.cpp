@@ -8,7 +8,7 @@ Workshop<Real>::Workshop() : queue_(local_.bodies) {
     constexpr std::size_t few = 16;
     local_.bodies.motion.reserve(few);
     local_.bodies.kind.reserve(few);
-    local_.bodies.trait.reserve(few);
+    local_.bodies.slot.reserve(few);
     local_.bodies.course.reserve(few);
     guests_.reserve(few);
     turned_.reserve(few);
@@ -61,7 +61,7 @@ void Workshop<Real>::clear() {
     Bodies<Real>& bodies = local_.bodies;
     bodies.motion.clear();
     bodies.kind.clear();
-    bodies.trait.clear();
+    bodies.slot.clear();
     bodies.course.clear();
     bodies.holds.clear();
     guests_.clear();
@@ -77,10 +77,11 @@ Index Workshop<Real>::admit(Index body, bool as_own) {
     const Bodies<Real>& from = state_->bodies;
     Bodies<Real>& bodies = local_.bodies;
     const auto place = static_cast<Index>(guests_.size());
-    const std::uint32_t slot = from.trait[body].slot;
+    const std::uint32_t slot = from.slot[body];
     bodies.motion.push_back(from.motion[body]);
     bodies.kind.push_back(from.kind[body]);
-    bodies.trait.push_back(from.trait[body]);
+    bodies.slot.push_back(slot);
+    bodies.mass.append(from.mass[body], place);
     bodies.restitution.append(from.restitution[body], place);
     bodies.friction.append(from.friction[body], place);
     bodies.material.append(from.material[body], place);
@@ -211,7 +212,7 @@ void Workshop<Real>::look(Index local, Index other, double now) {
     ++predictions_;
     if (place == no_index) {
         // Not worth a copy unless they meet.
-        if (rests_on(local_.bodies, local, state_->bodies.trait[other].slot)) return;
+        if (rests_on(local_.bodies, local, state_->bodies.slot[other])) return;
         time = predict_paths(*state_, path_of(local_, local), path_of(*state_, other), now, to_);
         if (time > to_) return;
         place = admit(other, false);
@@ -282,7 +283,7 @@ template <class Real>
 void Workshop<Real>::prefetch_bodies(std::span<const Index> bodies) const {
     for (const Index body : bodies) {
         prefetch_object(&state_->bodies.motion[body]);
-        prefetch(&state_->bodies.trait[body]);
+        prefetch(&state_->bodies.slot[body]);
         vicinity_->prefetch_body(body);
     }
 }

@@ -79,13 +79,6 @@ struct Hold {
     bool sticks = false;           ///< friction outweighs what pulls along the supports
 };
 
-/// What an impact needs to know of a body beside its motion and its material.
-template <class Real>
-struct Trait {
-    Real mass = 0; ///< kg; infinity for static bodies
-    std::uint32_t slot = 0;
-};
-
 /// A slot of the table of ids.
 struct Slot {
     Index index = no_index; ///< where the body is; no_index if the slot is free
@@ -97,7 +90,8 @@ template <class Real>
 struct Bodies {
     LineVector<Motion<Real>> motion;
     std::vector<Kind> kind; ///< on its own: predictions read it of every neighbour, and it stays in the cache
-    LineVector<Trait<Real>> trait;
+    std::vector<std::uint32_t> slot;
+    Column<Real> mass; ///< kg; infinity for static bodies
     Column<Real> restitution;
     Column<Real> friction;
     Column<std::uint32_t> material;
@@ -118,7 +112,7 @@ struct Bodies {
     void for_each_array(F&& f) {
         f(motion);
         f(kind);
-        f(trait);
+        f(slot);
         if (interpolating) f(previous);
         for_each_column([&f](auto& column) {
             if (!column.array().empty()) f(column.array());
@@ -126,6 +120,7 @@ struct Bodies {
     }
     template <class F>
     void for_each_column(F&& f) {
+        f(mass);
         f(restitution);
         f(friction);
         f(material);
@@ -135,7 +130,7 @@ struct Bodies {
 
 template <class Real>
 const Hold& hold_of(const Bodies<Real>& bodies, Index index) {
-    return bodies.holds.find(bodies.trait[index].slot)->second;
+    return bodies.holds.find(bodies.slot[index])->second;
 }
 
 /// The flight that is remembered of a body.
@@ -151,7 +146,7 @@ Flight recent_flight(const Bodies<Real>& bodies, std::uint32_t slot) {
 template <class Real>
 void release(Bodies<Real>& bodies, Index index) {
     if (bodies.kind[index] != Kind::held) return;
-    bodies.holds.erase(bodies.trait[index].slot);
+    bodies.holds.erase(bodies.slot[index]);
     bodies.kind[index] = Kind::free;
 }
 
@@ -159,9 +154,9 @@ void release(Bodies<Real>& bodies, Index index) {
 template <class Real>
 void remove_body(Bodies<Real>& bodies, Index index) {
     release(bodies, index);
-    const std::uint32_t slot = bodies.trait[index].slot;
+    const std::uint32_t slot = bodies.slot[index];
     std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
-    bodies.slots[bodies.trait.back().slot].index = index;
+    bodies.slots[bodies.slot.back()].index = index;
     bodies.for_each_array([index](auto& array) {
         array[index] = array.back();
         array.pop_back();
@@ -183,7 +178,7 @@ void reorder(Bodies<Real>& bodies, std::span<Index> order) {
             k = next;
         }
     }
-    for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.trait[k].slot].index = k;
+    for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.slot[k]].index = k;
 }
 
 } // namespace carom::core

@@ -45,7 +45,8 @@ public:
     template <class Predicate>
     void link_all(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
         // Covers run out in bursts: what is found waits in lists that must not become long.
-        for (; bodies.size() > batch; bodies = bodies.subspan(batch)) link_batch(executor, bodies.first(batch), looks_up);
+        for (; bodies.size() > batch; bodies = bodies.subspan(batch))
+            link_batch(executor, bodies.first(batch), looks_up);
         link_batch(executor, bodies, looks_up);
     }
     /// Takes a body's cover away, and its neighbours.

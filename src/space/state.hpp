@@ -123,7 +123,7 @@ Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
 
 template <class Real>
 Vec3 attraction(const State<Real>& state, Index i) {
-    return attraction(state, state.bodies.motion[i].x, state.bodies.trait[i].slot);
+    return attraction(state, state.bodies.motion[i].x, state.bodies.slot[i]);
 }
 
 /// Shortest way along periodic axes: subtracts whole periods from a difference of positions (units) such that
@@ -156,7 +156,7 @@ Vec3 separation(const State<Real>& state, const Motion<Real>& a, const Motion<Re
 /// the books know that uniform gravity acts on them all the time.
 template <class Real>
 void book_held_way(const State<Real>& state, Index i, const Vec3& a, const Vec3& d, double duration, Entry& entry) {
-    const auto mass = static_cast<double>(state.bodies.trait[i].mass);
+    const auto mass = static_cast<double>(state.bodies.mass[i]);
     entry.held_mass_time += mass * duration;
     entry.outer_impulse += a * (mass * duration);
     entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);

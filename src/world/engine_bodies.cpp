@@ -163,12 +163,17 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
     const auto real = [](std::span<const double> column, std::size_t k, double value) {
         return static_cast<Real>(element(column, k, value));
     };
+    // No more than is needed, but bodies that come one by one must not move all others each time.
+    bodies.for_each_array([needed = bodies.size() + positions.size()](auto& array) {
+        if (array.capacity() < needed) array.reserve(std::max(needed, array.size() + array.size() / 2));
+    });
     for (std::size_t k = 0; k < positions.size(); ++k) {
         const std::size_t place = bodies.size();
         const double mass = element(columns.mass, k, standard.mass);
         bodies.motion.push_back({positions[k], 0, rounded<Real>(element(columns.velocity, k, standard.velocity)),
                                  real(columns.radius, k, standard.radius)});
-        bodies.trait.push_back({.mass = static_cast<Real>(mass)});
+        bodies.slot.push_back(0);
+        bodies.mass.append(static_cast<Real>(mass), place);
         bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
         bodies.restitution.append(real(columns.restitution, k, standard.restitution), place);
         bodies.friction.append(real(columns.friction, k, standard.friction), place);
@@ -193,9 +198,8 @@ void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
     for (std::size_t i = first_new; i < end; ++i) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
         if (!other) continue;
-        const std::string name = *other >= first_new
-                                     ? "body " + std::to_string(*other - first_new) + " of this call"
-                                     : "the body in slot " + std::to_string(state_.bodies.trait[*other].slot);
+        const std::string name = *other >= first_new ? "body " + std::to_string(*other - first_new) + " of this call"
+                                                     : "the body in slot " + std::to_string(state_.bodies.slot[*other]);
         throw Error(ErrorCode::overlap, "position", "overlaps " + name, i - first_new);
     }
 }
@@ -212,7 +216,7 @@ BodyId Engine<Real>::give_id(Index index) {
         bodies.free_slots.pop_back();
     }
     bodies.slots[slot].index = index;
-    bodies.trait[index].slot = slot;
+    bodies.slot[index] = slot;
     return id_of(slot);
 }
 
@@ -259,7 +263,7 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     };
     fill(columns.position, [&](Index i) { return api_position(bodies.motion[i].x); });
     fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
-    fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.trait[i].mass); });
+    fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.mass[i]); });
     fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
     fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
     fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
@@ -270,7 +274,7 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
 template <class Real>
 void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const {
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.trait[indices[k]].mass));
+        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.mass[indices[k]]));
         const Vec3 velocity = element(columns.velocity, k, velocity_of(state_.bodies.motion[indices[k]]));
         if (std::isinf(mass) && velocity != Vec3{}) {
             throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
@@ -290,7 +294,7 @@ void Engine<Real>::check_moved(const std::vector<Index>& indices) {
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
         if (!other) continue;
         throw Error(ErrorCode::overlap, "position",
-                    "overlaps the body in slot " + std::to_string(state_.bodies.trait[*other].slot), k);
+                    "overlaps the body in slot " + std::to_string(state_.bodies.slot[*other]), k);
     }
 }
 
@@ -338,7 +342,7 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
         for (std::size_t k = 0; k < column.size(); ++k) writer(indices[k], column[k]);
     };
     write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
-    write(columns.mass, [&](Index i, double mass) { bodies.trait[i].mass = static_cast<Real>(mass); });
+    write(columns.mass, [&](Index i, double mass) { bodies.mass.set(i, static_cast<Real>(mass), bodies.size()); });
     write(columns.restitution, [&](Index i, double e) { bodies.restitution.set(i, static_cast<Real>(e), size()); });
     write(columns.friction, [&](Index i, double mu) { bodies.friction.set(i, static_cast<Real>(mu), size()); });
     write(columns.material, [&](Index i, std::uint32_t key) { bodies.material.set(i, key, size()); });
@@ -417,7 +421,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
     for (std::size_t k = 0; k < indices.size(); ++k) {
         Motion<Real>& m = bodies.motion[indices[k]];
         formers[k] = m.v;
-        const double divisor = are_impulses ? static_cast<double>(bodies.trait[indices[k]].mass) : 1;
+        const double divisor = are_impulses ? static_cast<double>(bodies.mass[indices[k]]) : 1;
         m.v = rounded<Real>(velocity_of(m) + changes[k] / divisor);
         if (is_finite(m.v)) continue;
         // A body may be named more than once: the last change is undone first.

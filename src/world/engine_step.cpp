@@ -58,7 +58,7 @@ double Engine<Real>::strongest_attraction() const {
     for (const PointField& field : state_.laws.fields) {
         double nearest = std::numeric_limits<double>::infinity();
         for (Index i = 0; i < size(); ++i) {
-            if (state_.bodies.kind[i] == Kind::fixed || state_.bodies.trait[i].slot == field.carrier) continue;
+            if (state_.bodies.kind[i] == Kind::fixed || state_.bodies.slot[i] == field.carrier) continue;
             const Vec3 d = to_metres(field.x - state_.bodies.motion[i].x, setting_.resolution);
             nearest = std::min(nearest, length_squared(d));
         }
@@ -89,7 +89,7 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
         throw Error(ErrorCode::out_of_world, "position",
                     "would leave the world of +-" + shown(edge * setting_.resolution.metres) +
                         " m in one step (shorter ones may do); " + remedy_for(end * setting_.resolution.metres),
-                    state_.bodies.trait[i].slot);
+                    state_.bodies.slot[i]);
     }
 }
 
@@ -238,7 +238,7 @@ template <class Real>
 double Engine<Real>::sum_moving_mass() const {
     ExactSum sum;
     for (Index i = 0; i < size(); ++i) {
-        if (state_.bodies.kind[i] != Kind::fixed) sum.add(static_cast<double>(state_.bodies.trait[i].mass));
+        if (state_.bodies.kind[i] != Kind::fixed) sum.add(static_cast<double>(state_.bodies.mass[i]));
     }
     return sum.value();
 }

@@ -22,12 +22,12 @@ Energy Engine<Real>::energy() const {
     const std::vector<PointField> fields = placed_fields();
     for_each_mover(state_.bodies, [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
-        const auto mass = static_cast<double>(state_.bodies.trait[i].mass);
+        const auto mass = static_cast<double>(state_.bodies.mass[i]);
         kinetic.add(0.5 * mass * length_squared(velocity_of(m)));
         const Vec3 from_origin = metres_from(setting_.first_origin, m.x);
         if (state_.laws.gravity != Vec3{}) potential.add(-mass * dot(state_.laws.gravity, from_origin));
         for (const PointField& field : fields) {
-            if (field.carrier == state_.bodies.trait[i].slot) continue;
+            if (field.carrier == state_.bodies.slot[i]) continue;
             const double distance_squared =
                 length_squared(to_metres(field.x - m.x, setting_.resolution)) + field.softening * field.softening;
             if (distance_squared > 0) potential.add(-mass * field.strength / std::sqrt(distance_squared));
@@ -40,7 +40,7 @@ template <class Real>
 Vec3 Engine<Real>::momentum() const {
     VectorSum sum;
     for_each_mover(state_.bodies, [&](Index i) {
-        sum.add(velocity_of(state_.bodies.motion[i]) * static_cast<double>(state_.bodies.trait[i].mass));
+        sum.add(velocity_of(state_.bodies.motion[i]) * static_cast<double>(state_.bodies.mass[i]));
     });
     return sum.value();
 }
@@ -51,7 +51,7 @@ Vec3 Engine<Real>::angular_momentum(const Vec3& about) const {
     VectorSum sum;
     for_each_mover(state_.bodies, [&](Index i) {
         const Motion<Real>& m = state_.bodies.motion[i];
-        sum.add(cross(api_position(m.x) - about, velocity_of(m) * static_cast<double>(state_.bodies.trait[i].mass)));
+        sum.add(cross(api_position(m.x) - about, velocity_of(m) * static_cast<double>(state_.bodies.mass[i])));
     });
     return sum.value();
 }
@@ -61,7 +61,7 @@ Vec3 Engine<Real>::centre_of_mass() const {
     VectorSum moment;
     Sum mass;
     for_each_mover(state_.bodies, [&](Index i) {
-        const auto m = static_cast<double>(state_.bodies.trait[i].mass);
+        const auto m = static_cast<double>(state_.bodies.mass[i]);
         moment.add(api_position(state_.bodies.motion[i].x) * m);
         mass.add(m);
     });

@@ -69,7 +69,7 @@ void Engine<Real>::attract(double duration) {
         if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before + change);
-        impulses[part].add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.trait[i].mass));
+        impulses[part].add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.mass[i]));
     });
     for (std::size_t part = 1; part < most_parts; ++part) impulses[0].add(impulses[part]);
     state_.books.outer_impulse.add(impulses[0].value());
@@ -91,7 +91,7 @@ void Engine<Real>::drag(double duration) {
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before * drag_factor(law, length(before), duration));
         const Vec3 after = velocity_of(bodies.motion[i]);
-        const auto mass = static_cast<double>(bodies.trait[i].mass);
+        const auto mass = static_cast<double>(bodies.mass[i]);
         losses[part].impulse.add((after - before) * mass);
         losses[part].energy.add(0.5 * mass * dot(before - after, before + after));
     });

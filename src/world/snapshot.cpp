@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 3;
+constexpr std::uint32_t snapshot_version = 4;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -109,11 +109,6 @@ void transfer(Archive& archive, Motion<Real>& motion) {
 template <class Archive>
 void transfer(Archive& archive, Flight& flight) {
     archive(flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
-}
-
-template <class Archive, class Real>
-void transfer(Archive& archive, Trait<Real>& trait) {
-    archive(trait.mass, trait.slot);
 }
 
 template <class Archive, class T>
@@ -242,7 +237,7 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.trait, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights, state_.books,
+    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights, state_.books,
             attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
@@ -295,9 +290,9 @@ template <class Real>
 bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const std::size_t expected_previous = b.interpolating ? size() : 0;
-    return b.kind.size() == size() && b.trait.size() == size() && b.previous.size() == expected_previous &&
-           b.restitution.is_sound(size()) && b.friction.is_sound(size()) && b.material.is_sound(size()) &&
-           b.user_data.is_sound(size());
+    return b.kind.size() == size() && b.slot.size() == size() && b.previous.size() == expected_previous &&
+           b.mass.is_sound(size()) && b.restitution.is_sound(size()) && b.friction.is_sound(size()) &&
+           b.material.is_sound(size()) && b.user_data.is_sound(size());
 }
 
 template <class Real>
@@ -307,7 +302,7 @@ bool Engine<Real>::slots_are_sound() const {
     for (std::uint32_t k = 0; k < b.slots.size(); ++k) {
         const Index index = b.slots[k].index;
         if (index == no_index) continue;
-        if (index >= size() || b.trait[index].slot != k) return false;
+        if (index >= size() || b.slot[index] != k) return false;
         ++used;
     }
     std::vector<bool> is_free(b.slots.size(), false);
@@ -323,7 +318,7 @@ bool Engine<Real>::bodies_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     for (Index i = 0; i < size(); ++i) {
         const Motion<Real>& m = b.motion[i];
-        const Trait<Real>& trait = b.trait[i];
+        const Real mass = b.mass[i];
         for (int axis = 0; axis < 3; ++axis) {
             const std::int64_t x = component(m.x, axis);
             if (x < -flight_edge || x > flight_edge) return false;
@@ -333,9 +328,9 @@ bool Engine<Real>::bodies_are_sound() const {
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
         const bool fixed = b.kind[i] == Kind::fixed;
-        if (b.kind[i] > Kind::held || !(trait.mass > 0) || std::isinf(trait.mass) != fixed) return false;
+        if (b.kind[i] > Kind::held || !(mass > 0) || std::isinf(mass) != fixed) return false;
         if (fixed && velocity_of(m) != Vec3{}) return false;
-        if ((b.kind[i] == Kind::held) != b.holds.contains(trait.slot)) return false;
+        if ((b.kind[i] == Kind::held) != b.holds.contains(b.slot[i])) return false;
     }
     return true;
 }
