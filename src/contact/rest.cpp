@@ -33,7 +33,7 @@ template <class Real>
 Vec3 normal_of(const State<Real>& state, Index body, const Support& support) {
     const Int3& x = state.bodies.motion[body].x;
     if (support.is_wall()) return state.bounds.normal(state.bounds.walls()[support.wall()], x, {}, state.resolution);
-    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code].index];
+    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code]];
     return contact_normal(separation(state, state.bodies.motion[body], other, {}, {}), Vec3{});
 }
 
@@ -45,7 +45,7 @@ double gap_to(const State<Real>& state, Index body, const Support& support) {
     if (support.is_wall()) {
         return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, state.resolution);
     }
-    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code].index];
+    const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code]];
     return length(separation(state, m, other, {}, {})) - radius - static_cast<double>(other.radius);
 }
 
@@ -59,7 +59,7 @@ Support derived(const State<Real>& state, Index body, const Support& support) {
         now = support_by_wall(state, support.wall(), normal, m);
         now.friction = encounter_of(state, body, state.bounds.walls()[support.wall()]).friction;
     } else {
-        const Index fixed = state.bodies.slots[support.code].index;
+        const Index fixed = state.bodies.slots[support.code];
         now = support_by_body(support.code, normal, m, state.bodies.motion[fixed]);
         now.friction = encounter_of(state, body, fixed).friction;
     }
@@ -205,7 +205,7 @@ void refresh_holds(State<Real>& state, double duration, std::vector<Index>& rele
     Bodies<Real>& bodies = state.bodies;
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
         Hold& hold = it->second;
-        const Index body = bodies.slots[it->first].index;
+        const Index body = bodies.slots[it->first];
         for (Support& s : hold.supports) s = derived(state, body, s);
         const Hold all = hold;
         std::erase_if(hold.supports, [&](const Support& s) { return !presses(state, body, all, s); });
@@ -226,7 +226,7 @@ template <class Real>
 void settle_holds(State<Real>& state) {
     Bodies<Real>& bodies = state.bodies;
     for (auto& [slot, hold] : bodies.holds) {
-        const Index body = bodies.slots[slot].index;
+        const Index body = bodies.slots[slot];
         Motion<Real>& motion = bodies.motion[body];
         Entry entry;
         for (Support& s : hold.supports) {
@@ -259,7 +259,7 @@ Vec3 kick_along_supports(const State<Real>& state, Index body, Vec3 kick) {
 template <class Real>
 void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
     for (auto it = bodies.holds.begin(); it != bodies.holds.end();) {
-        const Index body = bodies.slots[it->first].index;
+        const Index body = bodies.slots[it->first];
         std::erase_if(it->second.supports, [slot](const Support& s) { return s.code == slot; });
         if (!it->second.supports.empty()) {
             ++it;

@@ -16,6 +16,7 @@ template <class Real>
 IslandSolver<Real>::IslandSolver(State<Real>& state, SerialSolver<Real>& serial)
     : state_(state), serial_(serial), vicinity_(state) {
     for (auto& workshop : workshops_) workshop = std::make_unique<Workshop<Real>>();
+    for (auto& meetings : meetings_) meetings.reserve(4 * few_entries);
 }
 
 template <class Real>
@@ -341,7 +342,7 @@ void IslandSolver<Real>::merge() {
     clear_for_reuse(pending_);
     for (std::vector<Meeting>& meetings : meetings_) {
         for (const Meeting& m : meetings) unite(m.island, members_[memberships_[m.other]].island);
-        clear_for_reuse(meetings);
+        clear_for_bursts(meetings);
     }
     pending_.swap(merged_);
     std::sort(merged_.begin(), merged_.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -462,7 +463,7 @@ void IslandSolver<Real>::remember_flights() {
     bodies.recent_flights.reserve(few);
     const double collapse_time = state_.laws.collapse_time;
     std::erase_if(bodies.recent_flights, [&](const RecentFlight& recent) {
-        const std::uint32_t membership = memberships_[bodies.slots[recent.slot].index];
+        const std::uint32_t membership = memberships_[bodies.slots[recent.slot]];
         const bool is_replaced = membership != nowhere && members_[membership].turned != nowhere;
         return is_replaced || !is_recent(recent.flight, window_.to, collapse_time);
     });
@@ -541,7 +542,7 @@ void IslandSolver<Real>::clear_window() {
     clear_for_reuse(first_members_);
     clear_for_reuse(roster_);
     clear_for_reuse(island_events_);
-    for (std::vector<Meeting>& meetings : meetings_) clear_for_reuse(meetings);
+    for (std::vector<Meeting>& meetings : meetings_) clear_for_bursts(meetings);
     clear_for_reuse(pending_);
 }
 

@@ -35,7 +35,7 @@ template <class Real>
 void SerialSolver<Real>::recall_flights() {
     Bodies<Real>& bodies = state_.bodies;
     bodies.course.assign(bodies.size(), {});
-    for (const auto& [slot, flight] : bodies.recent_flights) bodies.course[bodies.slots[slot].index].flight = flight;
+    for (const auto& [slot, flight] : bodies.recent_flights) bodies.course[bodies.slots[slot]].flight = flight;
 }
 
 template <class Real>

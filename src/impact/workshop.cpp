@@ -24,11 +24,11 @@ Workshop<Real>::Workshop() : queue_(local_.bodies) {
 template <class Real>
 void Workshop<Real>::expect(std::size_t bodies) {
     if (turned.capacity() >= bodies + fluctuation(bodies, 1)) return;
-    turned.reserve(with_spare(bodies));
-    // Two bodies to an impact, but some have more than one.
-    const std::size_t impacts = bodies / 2 + bodies / 8;
-    log.reserve(with_spare(impacts));
-    log_ids.reserve(with_spare(impacts));
+    // The longest lists that there are get no more than they need.
+    turned.reserve(bodies + fluctuation(bodies, 4));
+    const std::size_t impacts = bodies / 2;
+    log.reserve(impacts + fluctuation(impacts, 4));
+    log_ids.reserve(impacts + fluctuation(impacts, 4));
 }
 
 template <class Real>
@@ -45,9 +45,9 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     local_.bounds = state.bounds;
     local_.resolution = state.resolution;
     local_.laws = state.laws;
-    clear_for_reuse(log);
-    clear_for_reuse(log_ids);
-    clear_for_reuse(turned);
+    log.clear();
+    log_ids.clear();
+    turned.clear();
     clear_for_reuse(legs);
     clear_for_reuse(flights);
     clear_for_reuse(holds);

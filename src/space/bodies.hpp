@@ -79,12 +79,6 @@ struct Hold {
     bool sticks = false;           ///< friction outweighs what pulls along the supports
 };
 
-/// A slot of the table of ids.
-struct Slot {
-    Index index = no_index; ///< where the body is; no_index if the slot is free
-    std::uint16_t generation = 0;
-};
-
 /// All bodies of a world, one element of each array per body.
 template <class Real>
 struct Bodies {
@@ -102,8 +96,9 @@ struct Bodies {
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
     std::vector<Course> course;               ///< per body, only while a solver works on these bodies
-    std::vector<Slot> slots;
-    std::vector<std::uint32_t> free_slots; ///< last in, first out
+    std::vector<Index> slots;                 ///< the table of ids: where the body is; no_index if the slot is free
+    std::vector<std::uint16_t> generations;   ///< of each slot
+    std::vector<std::uint32_t> free_slots;    ///< last in, first out
 
     [[nodiscard]] std::size_t size() const { return motion.size(); }
 
@@ -156,14 +151,14 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     release(bodies, index);
     const std::uint32_t slot = bodies.slot[index];
     std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
-    bodies.slots[bodies.slot.back()].index = index;
+    bodies.slots[bodies.slot.back()] = index;
     bodies.for_each_array([index](auto& array) {
         array[index] = array.back();
         array.pop_back();
     });
-    bodies.slots[slot].index = no_index;
+    bodies.slots[slot] = no_index;
     // A slot whose generations are used up is given out no more: old ids must stay stale.
-    if (++bodies.slots[slot].generation != 0) bodies.free_slots.push_back(slot);
+    if (++bodies.generations[slot] != 0) bodies.free_slots.push_back(slot);
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by
@@ -178,7 +173,7 @@ void reorder(Bodies<Real>& bodies, std::span<Index> order) {
             k = next;
         }
     }
-    for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.slot[k]].index = k;
+    for (Index k = 0; k < order.size(); ++k) bodies.slots[bodies.slot[k]] = k;
 }
 
 } // namespace carom::core

@@ -31,7 +31,7 @@ void Cells::start_levels(const Axes& axes) {
     }
     histogram_.assign(bin_count, 0);
     levels_.clear();
-    clear_for_reuse(late_);
+    clear_for_bursts(late_);
 }
 
 void Cells::count_diameter(const Ball& ball) { ++histogram_[length_bin(std::abs(2 * ball.radius))]; }
@@ -46,7 +46,7 @@ double Cells::first_edge(std::size_t bodies) const {
     // One size: the first level takes nearly all, in cells with some to spare: fewer of them, each with more balls that
     // look around together. Many sizes: start low, the others find their own level.
     constexpr double one_size = 4;
-    constexpr double spare = 1.25;
+    constexpr double spare = 1.4;
     const double most = quantile(0.98);
     return most <= one_size * quantile(0.05) ? spare * most : quantile(0.25);
 }

@@ -9,7 +9,7 @@ void Neighbours::start_lists(std::size_t bodies) {
     known_.assign(bodies, {});
     clear_for_reuse(links_);
     extending_ = false;
-    clear_for_reuse(extended_, 2 * extended_.size());
+    clear_for_bursts(extended_, std::max(extended_.size(), 16 * few_entries));
     extensions_from_ = 0;
     for (Part& part : parts_) part.used = 0;
 }

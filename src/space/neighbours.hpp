@@ -171,9 +171,7 @@ private:
             for (const Meeting& m : part.meetings) prefetch(&known_[m.other]);
             for (const Meeting& m : part.meetings) link_both(m.body, m.other, looks_up);
             most_meetings_ = std::max(most_meetings_, part.meetings.size());
-            part.meetings.clear();
-            // Any part may become the longest, and a batch differs from the next.
-            if (part.meetings.capacity() < 3 * most_meetings_ / 2) part.meetings.reserve(3 * most_meetings_);
+            clear_for_bursts(part.meetings, most_meetings_);
         }
     }
     void find_meeting(Part& part, std::span<const Index> bodies) const;

@@ -113,8 +113,8 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
 template <class Real>
 std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double way) const {
     // All in units of one pair found; fitted to the workloads.
-    constexpr double fixed = 15;
-    constexpr double looked_at = 8;
+    constexpr double fixed = 22;
+    constexpr double looked_at = 36;
     constexpr double planned = 0.2; // anew in every step if bodies are kicked
     const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
     // The crowding is known from the last lists, and as far as they reached: one window at first.
@@ -278,7 +278,7 @@ void Vicinity<Real>::renew_exits() {
 template <class Real>
 void Vicinity<Real>::charge_held() {
     for (const auto& [slot, hold] : state_.bodies.holds) {
-        const Index body = state_.bodies.slots[slot].index;
+        const Index body = state_.bodies.slots[slot];
         tracks_[body].room -= static_cast<float>(held_way(state_.bodies.motion[body], hold.acceleration));
         if (tracks_[body].room < 0) exits_.push_back(body);
     }

@@ -64,7 +64,7 @@ Index Engine<Real>::index_of(BodyId id, std::size_t place) const {
     if (!contains(id)) {
         throw Error(ErrorCode::unknown_body, "id", "there is no such body in this world", place);
     }
-    return state_.bodies.slots[id.slot].index;
+    return state_.bodies.slots[id.slot];
 }
 
 template <class Real>
@@ -76,14 +76,13 @@ std::vector<Index> Engine<Real>::indices_of(std::span<const BodyId> ids) const {
 
 template <class Real>
 BodyId Engine<Real>::id_of(std::uint32_t slot) const {
-    return {slot, state_.bodies.slots[slot].generation, world_tag_};
+    return {slot, state_.bodies.generations[slot], world_tag_};
 }
 
 template <class Real>
 bool Engine<Real>::contains(BodyId id) const noexcept {
     if (id.world != world_tag_ || id.slot >= state_.bodies.slots.size()) return false;
-    const Slot& slot = state_.bodies.slots[id.slot];
-    return slot.index != no_index && slot.generation == id.generation;
+    return state_.bodies.slots[id.slot] != no_index && state_.bodies.generations[id.slot] == id.generation;
 }
 
 template <class Real>
@@ -96,7 +95,7 @@ std::vector<BodyId> Engine<Real>::ids() const {
     std::vector<BodyId> ids;
     ids.reserve(size());
     for (std::uint32_t slot = 0; slot < state_.bodies.slots.size(); ++slot) {
-        if (state_.bodies.slots[slot].index != no_index) ids.push_back(id_of(slot));
+        if (state_.bodies.slots[slot] != no_index) ids.push_back(id_of(slot));
     }
     return ids;
 }
@@ -210,12 +209,13 @@ BodyId Engine<Real>::give_id(Index index) {
     std::uint32_t slot = 0;
     if (bodies.free_slots.empty()) {
         slot = static_cast<std::uint32_t>(bodies.slots.size());
-        bodies.slots.emplace_back();
+        bodies.generations.resize(slot + 1);
+        bodies.slots.push_back(no_index);
     } else {
         slot = bodies.free_slots.back();
         bodies.free_slots.pop_back();
     }
-    bodies.slots[slot].index = index;
+    bodies.slots[slot] = index;
     bodies.slot[index] = slot;
     return id_of(slot);
 }
@@ -386,7 +386,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
     islands_.vicinity().forget();
     for (const BodyId id : ids) {
         forget_sums();
-        const Index index = state_.bodies.slots[id.slot].index;
+        const Index index = state_.bodies.slots[id.slot];
         if (state_.bodies.kind[index] == Kind::fixed) release_from(state_.bodies, id.slot);
         drop_attractors_of(id);
         remove_body(state_.bodies, index);

@@ -203,7 +203,7 @@ void Engine<Real>::finish_bodies(double reached) {
     // What is held goes into the books, in the order of ids.
     for (const auto& [slot, hold] : bodies.holds) {
         Entry entry;
-        advance(state_, bodies.slots[slot].index, reached, entry);
+        advance(state_, bodies.slots[slot], reached, entry);
         state_.books.add(entry);
     }
     std::array<CensusTaker, most_parts> takers{};

@@ -8,8 +8,8 @@ namespace {
 /// Calls f(index) for every body that is not static, in the order of ids: sums must not depend on places in memory.
 template <class Real, class F>
 void for_each_mover(const Bodies<Real>& bodies, F&& f) {
-    for (const Slot& slot : bodies.slots) {
-        if (slot.index != no_index && bodies.kind[slot.index] != Kind::fixed) f(slot.index);
+    for (const Index i : bodies.slots) {
+        if (i != no_index && bodies.kind[i] != Kind::fixed) f(i);
     }
 }
 

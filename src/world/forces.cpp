@@ -35,7 +35,7 @@ std::vector<PointField> Engine<Real>::placed_fields() const {
         PointField field{.strength = attractor.strength, .softening = attractor.softening};
         if (attractor.body.is_set()) {
             field.carrier = attractor.body.slot;
-            field.x = state_.bodies.motion[state_.bodies.slots[field.carrier].index].x;
+            field.x = state_.bodies.motion[state_.bodies.slots[field.carrier]].x;
         } else {
             field.x = attractor_places_[i];
         }

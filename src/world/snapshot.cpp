@@ -122,11 +122,6 @@ void transfer(Archive& archive, RecentFlight& recent) {
 }
 
 template <class Archive>
-void transfer(Archive& archive, Slot& slot) {
-    archive(slot.index, slot.generation);
-}
-
-template <class Archive>
 void transfer(Archive& archive, Support& support) {
     archive(support.code, support.normal, support.bend, support.friction);
 }
@@ -237,8 +232,8 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.free_slots, b.holds, b.recent_flights, state_.books,
-            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.recent_flights,
+            state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
 
@@ -251,8 +246,8 @@ std::vector<std::byte> Engine<Real>::save() const {
     // By ids, so that the bytes do not tell where in memory a body happens to be.
     Bodies<Real> ordered = state_.bodies;
     std::vector<Index> order;
-    for (const Slot& slot : ordered.slots) {
-        if (slot.index != no_index) order.push_back(slot.index);
+    for (const Index i : ordered.slots) {
+        if (i != no_index) order.push_back(i);
     }
     reorder(ordered, order);
     ordered.for_each_column([this](auto& column) { column.normalise(size()); });
@@ -298,16 +293,17 @@ bool Engine<Real>::arrays_are_sound() const {
 template <class Real>
 bool Engine<Real>::slots_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
+    if (b.generations.size() != b.slots.size()) return false;
     std::size_t used = 0;
     for (std::uint32_t k = 0; k < b.slots.size(); ++k) {
-        const Index index = b.slots[k].index;
+        const Index index = b.slots[k];
         if (index == no_index) continue;
         if (index >= size() || b.slot[index] != k) return false;
         ++used;
     }
     std::vector<bool> is_free(b.slots.size(), false);
     for (const std::uint32_t slot : b.free_slots) {
-        if (slot >= b.slots.size() || b.slots[slot].index != no_index || is_free[slot]) return false;
+        if (slot >= b.slots.size() || b.slots[slot] != no_index || is_free[slot]) return false;
         is_free[slot] = true;
     }
     return used == size();
@@ -341,7 +337,7 @@ bool Engine<Real>::flights_are_sound() const {
     for (std::size_t k = 0; k < b.recent_flights.size(); ++k) {
         const auto& [slot, flight] = b.recent_flights[k];
         check_finite(flight.last_impact, "flight", k);
-        if (slot >= b.slots.size() || b.slots[slot].index == no_index || flight.quick_impacts == 0) return false;
+        if (slot >= b.slots.size() || b.slots[slot] == no_index || flight.quick_impacts == 0) return false;
         if (k > 0 && b.recent_flights[k - 1].slot >= slot) return false;
     }
     return true;
@@ -353,14 +349,13 @@ bool Engine<Real>::holds_are_sound() const {
     const auto stands = [&](const Support& s) {
         check_finite(s.normal, "support");
         if (s.is_wall()) return s.wall() < state_.bounds.walls().size();
-        return s.code < b.slots.size() && b.slots[s.code].index != no_index &&
-               b.kind[b.slots[s.code].index] == Kind::fixed;
+        return s.code < b.slots.size() && b.slots[s.code] != no_index && b.kind[b.slots[s.code]] == Kind::fixed;
     };
     return std::all_of(b.holds.begin(), b.holds.end(), [&](const auto& entry) {
         const auto& [slot, hold] = entry;
         check_finite(hold.acceleration, "hold");
         check_finite(hold.friction, "hold");
-        const bool exists = slot < b.slots.size() && b.slots[slot].index != no_index;
+        const bool exists = slot < b.slots.size() && b.slots[slot] != no_index;
         return exists && !hold.supports.empty() && std::all_of(hold.supports.begin(), hold.supports.end(), stands);
     });
 }
@@ -380,7 +375,7 @@ std::uint64_t Engine<Real>::hash() const {
     Hasher hasher;
     hasher(clock_.seconds());
     for (std::uint32_t slot = 0; slot < state_.bodies.slots.size(); ++slot) {
-        const Index i = state_.bodies.slots[slot].index;
+        const Index i = state_.bodies.slots[slot];
         if (i == no_index) continue;
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
