@@ -115,7 +115,7 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double wa
     // All in units of one pair found; fitted to the workloads.
     constexpr double fixed = 22;
     constexpr double looked_at = 36;
-    constexpr double planned = 0.2; // anew in every step if bodies are kicked
+    constexpr double planned = 0.1; // anew in every step if bodies are kicked
     const double per_window = looked_at * turning_ + (kicked_ ? planned : 0);
     // The crowding is known from the last lists, and as far as they reached: one window at first.
     constexpr std::uint32_t growth = 2;
@@ -123,7 +123,7 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double wa
     double best = infinite;
     std::uint32_t windows = 1;
     for (std::uint32_t k = 1; k <= most; ++k) {
-        const double reach = 2 * (census.mean_radius + way * (k + spare_windows()));
+        const double reach = 2 * (census.mean_radius + way * (k + spare_windows()) * (1 - lead_share()));
         const double pairs = crowding_ * reach * reach * reach;
         const double cost = (fixed + pairs) / k + per_window * pairs;
         if (cost >= best) continue;
@@ -131,6 +131,14 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double wa
         windows = k;
     }
     return windows;
+}
+
+/// Part of a cover's time that a body needs to its middle. The nearer to a half, the smaller are covers; but whom an
+/// impact turns before or after the middle leaves its cover the sooner.
+template <class Real>
+double Vicinity<Real>::lead_share() const {
+    constexpr double least = 1.0 / 20; // of the bodies that turn in a window, for which it does not pay; measured
+    return 0.5 * std::max(0.0, 1 - turning_ / least);
 }
 
 /// Room for so many windows more: impacts make some bodies faster.
@@ -146,13 +154,14 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
     if (!lists_valid_ || neighbours_.crowded()) return false;
     neighbours_.drop_extensions();
     calendar_.clear();
-    const float now = relative(window.from);
+    const float elapsed = relative(window.from);
     set_epoch(window, windows);
+    middle_ -= elapsed;
     const auto needed = static_cast<float>(windows_ * length_);
     std::array<std::size_t, most_parts> without_room{};
     for_each_in_parts(*executor_, state_.bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
         const auto body = static_cast<Index>(k);
-        take_track(body, room_at(body, now), 0);
+        take_kicked(body, elapsed);
         plan_alone(part, body, 0);
         if (room_at(body, needed) < 0) ++without_room[part];
     });
@@ -170,11 +179,17 @@ void Vicinity<Real>::build(const Census& census, double way) {
     clear_for_reuse(exits_);
     const double windows = windows_ahead_ + spare_windows();
     horizon_ = length_ * windows;
-    typical_room_ = way * windows;
+    const double share = lead_share();
+    lead_ = share * horizon_;
+    middle_ = static_cast<float>(lead_);
+    typical_room_ = way * windows * (1 - share);
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
     const auto [x, y, z] = ticks_.metres_per_tick();
     scale_.metres = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    ticks_per_metre_ = {1 / scale_.metres[0], 1 / scale_.metres[1], 1 / scale_.metres[2]};
+    // A tick along each axis, and roundings.
+    tick_loss_ = 2 * (scale_.metres[0] + scale_.metres[1] + scale_.metres[2]);
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
     scale_.tolerance = static_cast<float>(4 * reach_margin_);
@@ -189,22 +204,12 @@ void Vicinity<Real>::build(const Census& census, double way) {
         plan_alone(part, body, 0);
     });
     neighbours_.build(
-        *executor_, bodies, ticks_.axes(census), [this](Index body) { return first_cover(body); },
+        *executor_, bodies, ticks_.axes(census), [this](Index body) { return cover_at(body, 0); },
         [this](Index body) { return state_.bodies.kind[body] != Kind::fixed; });
     lists_valid_ = true;
     const auto pairs = 0.5 * static_cast<double>(neighbours_.found());
     crowding_ = pairs / static_cast<double>(std::max<std::size_t>(census.moving, 1)) /
                 (typical_size_ * typical_size_ * typical_size_);
-}
-
-/// The cover for what take_room() gave at the start of the epoch.
-template <class Real>
-Ball Vicinity<Real>::first_cover(Index body) const {
-    const Track& track = tracks_[body];
-    const bool is_free = state_.bodies.kind[body] == Kind::free;
-    if (!std::isinf(track.reach)) return {track.start, std::abs(track.reach) + (is_free ? track.room : 0)};
-    const double radius = static_cast<double>(state_.bodies.motion[body].radius) + reach_margin_;
-    return ticks_.ball(state_.bodies.motion[body].x, {}, tracks_[body].room < 0 ? radius : radius + fall_);
 }
 
 /// Plans all pairs, each once.
@@ -235,7 +240,7 @@ template <class Real>
 void Vicinity<Real>::renew_disturbed() {
     sort_and_unite(disturbed_);
     for (const Index body : disturbed_) {
-        take_track(body, room_at(body, window_start_), window_start_);
+        take_track(body, room_around(tracks_[body], window_start_), window_start_);
         plan_meetings(0, body, window_start_, window_);
         plan_alone(0, body, window_);
     }
@@ -252,12 +257,12 @@ void Vicinity<Real>::renew_exits() {
     clear_for_reuse(renewed_);
     for (const Index body : exits_) {
         if (room_at(body, window_end_) < 0) {
-            const float room = take_room(body, window_start_);
+            take_room(body, window_start_);
             if (tracks_[body].room < 0) {
                 neighbours_.uncover(body);
                 fast_.push_back(body);
             } else {
-                neighbours_.replace_cover(body, cover_at(body, room, window_start_));
+                neighbours_.replace_cover(body, cover_at(body, window_start_));
                 renewed_.push_back(body);
             }
         }
@@ -330,24 +335,35 @@ void Vicinity<Real>::cover_along(Index body, const Flown<Real>& path) {
 
 template <class Real>
 float Vicinity<Real>::room_left(Index body, const Flown<Real>& path) const {
-    const float left = room_at(body, window_start_);
-    const Vec3& g = frame_;
-    const Flown<Real> before = flown(state_, body);
-    const double start = epoch_ + static_cast<double>(window_start_);
-    const double end = epoch_ + static_cast<double>(window_end_);
-    const auto place = [](const Flown<Real>& p, double time) {
-        return displacement(velocity_of(p.motion), p.acceleration, time - p.motion.t);
-    };
-    const Vec3 frame =
-        g * (0.5 * (exact_relative(end) * exact_relative(end) - exact_relative(start) * exact_relative(start)));
-    double distance = length(to_metres(path.motion.x - before.motion.x, state_.resolution) + place(path, end) -
-                             place(before, start) - frame) +
-                      reach_margin_;
-    const double duration = end - path.motion.t;
-    if (path.acceleration != g) distance += 0.5 * length(path.acceleration - g) * duration * duration;
+    const Motion<Real>& before = state_.bodies.motion[body];
+    const bool was_free = state_.bodies.kind[body] == Kind::free;
+    const float known = was_free ? std::max(window_start_, middle_) : window_start_;
+    const Vec3 from = was_free ? place_on_track(before, static_cast<double>(known))
+                               : place_on_path(flown(state_, body), static_cast<double>(known));
+    const Vec3 way = to_metres(path.motion.x - before.x, state_.resolution) - from;
+    const double turn = exact_relative(path.motion.t);
+    const double end = static_cast<double>(window_end_);
+    // A straight way lies in a ball if its ends do.
+    double distance = std::max(length(way + place_on_path(path, turn)), length(way + place_on_path(path, end)));
+    const double duration = end - turn;
+    if (path.acceleration != frame_) distance += 0.5 * length(path.acceleration - frame_) * duration * duration;
     // What is held stays behind the falling frame: it needs another cover, unless it has one already.
     if (path.kind == Kind::held) distance += held_way(path.motion, path.acceleration) + fall_;
-    return static_cast<float>(static_cast<double>(left) - distance);
+    return static_cast<float>(static_cast<double>(room_at(body, known)) - distance - reach_margin_);
+}
+
+/// m from a body's position at its own time to where it is in the falling frame at `time`.
+template <class Real>
+Vec3 Vicinity<Real>::place_on_path(const Flown<Real>& path, double time) const {
+    return displacement(velocity_of(path.motion), path.acceleration, time - exact_relative(path.motion.t)) -
+           frame_ * (0.5 * time * time);
+}
+
+/// The same along the track of a free body: straight in the frame.
+template <class Real>
+Vec3 Vicinity<Real>::place_on_track(const Motion<Real>& motion, double time) const {
+    const double own = exact_relative(motion.t);
+    return (velocity_of(motion) - frame_ * own) * (time - own) - frame_ * (0.5 * own * own);
 }
 
 template <class Real>
@@ -450,15 +466,40 @@ void Vicinity<Real>::put_track(Index body, const Track& track, float room, float
     }
 }
 
-/// Takes the track and the room of a body that is to have a new cover, and returns how much room (m) that has to have.
-/// That of its track is negative if it is too fast for a cover.
+/// m, the room that is left where a kick turns a track, at the start of both. As long as it is on its track, so much of
+/// its way is left: w / v of it at another speed w, and as much less as the kick may bend it. Or any way, if less.
 template <class Real>
-float Vicinity<Real>::take_room(Index body, float now) {
+float Vicinity<Real>::room_after_kick(const Track& before, const Track& after) const {
+    const float left = before.room;
+    const float around = room_around(before, 0);
+    if (left < 0 || around < 0) return std::min(left, around);
+    const float v = speed_of(before);
+    const float w = speed_of(after);
+    const auto change = [&](std::size_t axis) { return after.speed[axis] - before.speed[axis]; };
+    const float kick = std::sqrt(change(0) * change(0) + change(1) * change(1) + change(2) * change(2));
+    if (left < (v + kick) * std::max(0.0F, middle_)) return around;
+    return std::max(around, left * ((2 * w - v - kick) / w));
+}
+
+/// A body goes its present way, which kicks have turned `elapsed` s after the start of the epoch before.
+template <class Real>
+void Vicinity<Real>::take_kicked(Index body, float elapsed) {
+    Track before = tracks_[body];
+    before.room -= speed_of(before) * elapsed;
+    take_track(body, before.room, 0);
+    Track& after = tracks_[body];
+    if (after.room < 0 || state_.bodies.kind[body] == Kind::fixed) return;
+    after.room += room_after_kick(before, after) - before.room;
+}
+
+/// Takes the track and the room of a body that is to have a new cover. The room is negative if it is too fast for one.
+template <class Real>
+void Vicinity<Real>::take_room(Index body, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const Kind kind = state_.bodies.kind[body];
     if (kind == Kind::fixed) {
         take_track(body, 0, now);
-        return 0;
+        return;
     }
     const bool is_held = kind == Kind::held;
     const double speed = length(velocity_of(m) - frame_ * exact_relative(m.t));
@@ -466,32 +507,34 @@ float Vicinity<Real>::take_room(Index body, float now) {
         is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
-    const double room = std::clamp(spare * speed * horizon_, typical_room_, most_rooms * typical_room_);
+    const double around = std::clamp(spare * speed * (horizon_ - lead_), typical_room_, most_rooms * typical_room_);
+    const double ahead = speed * static_cast<double>(std::max(0.0F, middle_ - now));
+    const double room = around + (!is_held && around >= ahead ? ahead : 0);
     take_track(body, static_cast<float>(room), now);
     if (needed > room || tracks_[body].room < 0) {
         tracks_[body] = {.start = ticks_.of(m.x), .reach = -std::numeric_limits<float>::infinity(), .room = -1};
     } else if (is_held) {
         tracks_[body].room -= static_cast<float>(needed);
     }
-    return static_cast<float>(room);
 }
 
-/// A cover with so much room around where a body is at `now`.
 template <class Real>
-Ball Vicinity<Real>::cover_at(Index body, float room, float now) const {
-    const Motion<Real>& m = state_.bodies.motion[body];
-    const bool is_free = state_.bodies.kind[body] == Kind::free;
-    const double reach = static_cast<double>(m.radius) + reach_margin_ + static_cast<double>(room);
-    return ticks_.ball(m.x, is_free ? place_at(m, now) : Vec3{}, reach + (is_free ? sag_ : fall_));
-}
-
-/// m from a free body's position to where it is in the falling frame at `now`.
-template <class Real>
-Vec3 Vicinity<Real>::place_at(const Motion<Real>& motion, float now) const {
-    const Vec3& g = frame_;
-    const double own = exact_relative(motion.t);
-    const Vec3 v = velocity_of(motion) - g * own;
-    return v * (static_cast<double>(now) - own) + g * (-0.5 * own * own);
+Ball Vicinity<Real>::unusual_cover_at(Index body, float now) const {
+    const Track& track = tracks_[body];
+    if (std::isinf(track.reach)) {
+        const double radius = static_cast<double>(state_.bodies.motion[body].radius) + reach_margin_;
+        return ticks_.ball(state_.bodies.motion[body].x, {}, track.room < 0 ? radius : radius + fall_);
+    }
+    if (state_.bodies.kind[body] != Kind::free) return {track.start, std::abs(track.reach)};
+    // Around the place where it will be in the middle of a cover's time, if the room does for the way there.
+    const float speed = speed_of(track);
+    const float ahead = std::max(0.0F, middle_ - now);
+    const float middle = track.room - speed * now >= 2 * speed * ahead ? now + ahead : now;
+    const auto moved = [&](std::size_t axis) {
+        const float ticks = track.speed[axis] * middle * ticks_per_metre_[axis];
+        return track.start[axis] + static_cast<Tick>(static_cast<std::int32_t>(ticks));
+    };
+    return {{moved(0), moved(1), moved(2)}, std::abs(track.reach) + (track.room - speed * middle) + tick_loss_};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

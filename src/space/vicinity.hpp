@@ -131,6 +131,7 @@ private:
     void set_epoch(const Window& window, std::uint32_t windows);
     [[nodiscard]] std::uint32_t windows_worthwhile(const Census& census, double way) const;
     [[nodiscard]] double spare_windows() const;
+    [[nodiscard]] double lead_share() const;
     [[nodiscard]] bool carry_on(const Window& window, std::uint32_t windows);
     void build(const Census& census, double way);
     void plan_pairs();
@@ -147,10 +148,22 @@ private:
     [[nodiscard]] float room_at(Index body, float now) const {
         return tracks_[body].room - speed_of(tracks_[body]) * now;
     }
-    float take_room(Index body, float now);
-    [[nodiscard]] Ball cover_at(Index body, float room, float now) const;
-    [[nodiscard]] Ball first_cover(Index body) const;
-    [[nodiscard]] Vec3 place_at(const Motion<Real>& motion, float now) const;
+    /// m that a body may go in any direction from where its track is at `now`, and stays in its cover.
+    [[nodiscard]] float room_around(const Track& track, float now) const {
+        return track.room - speed_of(track) * (now + 2 * std::max(0.0F, middle_ - now));
+    }
+    [[nodiscard]] float room_after_kick(const Track& before, const Track& after) const;
+    void take_kicked(Index body, float elapsed);
+    [[nodiscard]] Vec3 place_on_path(const Flown<Real>& path, double time) const;
+    [[nodiscard]] Vec3 place_on_track(const Motion<Real>& motion, double time) const;
+    void take_room(Index body, float now);
+    /// The cover for the room that a body has just taken at `now`.
+    [[nodiscard]] Ball cover_at(Index body, float now) const {
+        const Track& track = tracks_[body];
+        const bool is_around_start = now == 0 && middle_ <= 0 && track.reach > 0;
+        return is_around_start ? Ball{track.start, track.reach + track.room} : unusual_cover_at(body, now);
+    }
+    [[nodiscard]] Ball unusual_cover_at(Index body, float now) const;
 
     void plan_alone(std::size_t part, Index body, std::uint32_t earliest);
     void plan_meetings(std::size_t part, Index body, float from, std::uint32_t earliest);
@@ -179,11 +192,14 @@ private:
     Ticks ticks_;
     TrackScale scale_{};
     Neighbours neighbours_;
-    double typical_room_ = 0;         ///< m
-    double typical_size_ = 0;         ///< m, of a cover
-    double reach_margin_ = 0;         ///< m, added to radii: more than all roundings of tracks
-    double longest_reach_ = 0;        ///< m, of tracks
-    double horizon_ = 0;              ///< s that covers are meant to do for
+    double typical_room_ = 0;  ///< m
+    double typical_size_ = 0;  ///< m, of a cover
+    double reach_margin_ = 0;  ///< m, added to radii: more than all roundings of tracks
+    double longest_reach_ = 0; ///< m, of tracks
+    double horizon_ = 0;       ///< s that covers are meant to do for
+    std::array<float, 3> ticks_per_metre_{};
+    float tick_loss_ = 0;             ///< m, more than what ticks make of a place
+    double lead_ = 0;                 ///< s from when a cover is made to when its body is in its middle
     double crowding_ = 0;             ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
     double turning_ = 0.1;            ///< part of the bodies that end a window on a new path, of late; first a guess
     std::uint32_t windows_ahead_ = 0; ///< that the lists were built for
@@ -199,6 +215,7 @@ private:
     Vec3 frame_{};              ///< m/s^2, the acceleration of the frame: gravity, or none where bodies are kicked
     double fall_ = 0;           ///< m that the frame falls during the epoch
     double sag_ = 0;            ///< m that a free body falls in the frame
+    float middle_ = 0;          ///< s since the epoch's start, when bodies without impacts are in the middle of covers
     LineVector<Track> tracks_;
     Calendar calendar_;
 
