@@ -16,7 +16,7 @@ Workshop<Real>::Workshop() : queue_(local_.bodies) {
     legs.reserve(4 * few);
     flights.reserve(4 * few);
     absorbed.reserve(4 * few);
-    strays.reserve(4 * few);
+    strays.reserve(few);
     meetings.reserve(4 * few);
     queue_.reserve(4 * few);
 }
@@ -48,11 +48,11 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     log.clear();
     log_ids.clear();
     turned.clear();
-    clear_for_reuse(legs);
+    clear_for_bursts(legs);
     clear_for_reuse(flights);
     clear_for_reuse(holds);
     clear_for_reuse(absorbed);
-    clear_for_reuse(strays);
+    clear_for_bursts(strays);
     clear_for_reuse(meetings);
 }
 

@@ -34,7 +34,7 @@ void clear_for_reuse(List& list) {
 template <class List>
 void clear_for_bursts(List& list, std::size_t peak) {
     list.clear();
-    if (peak > 0 && list.capacity() < peak + peak / 2) list.reserve(4 * (peak + few_entries));
+    if (peak > 0 && list.capacity() < peak + peak / 2) list.reserve(3 * (peak + few_entries));
 }
 template <class List>
 void clear_for_bursts(List& list) {
