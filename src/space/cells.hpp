@@ -162,7 +162,7 @@ private:
     };
 
     /// Cells share lists of late balls, of which there are few, with the next ones along x: lists take little memory.
-    static std::uint32_t late_group(std::uint32_t cell) { return cell / 8; }
+    static std::uint32_t late_group(std::uint32_t cell) { return cell / 4; }
     [[nodiscard]] Ball sorted_ball(std::uint32_t place) const {
         return {{x_[place], y_[place], z_[place]}, radius_[place]};
     }
