@@ -69,7 +69,7 @@ std::vector<Vec3> plate_positions(double pitch) {
 World plate(const Trial& trial, Precision precision, bool serial) {
     World world({.precision = precision, .serial_reference = serial});
     for (const Vec3& position : plate_positions(trial.pitch)) {
-        world.add({.position = position, .mass = carom::infinite_mass, .radius = sphere_radius},
+        world.add({.position = position, .mass = carom::infinite_mass, .radius = sphere_radius, .restitution = 0},
                   carom::Overlap::accept);
     }
     return world;
@@ -87,14 +87,15 @@ Body random_shot(const Trial& trial, double travel, Random& random) {
     const Vec3 direction = Vec3{0, 0, -1} + (near ? random.on_circle() * random.uniform(0, steepest) : Vec3{});
     shot.position = target - direction * height;
     shot.velocity = direction * (travel / dt / carom::length(direction));
+    if (random.unit() < 0.5) shot.restitution = 0.3 * std::floor(4 * random.unit());
     return shot;
 }
 
-/// True if the straight line that ends here came through the plate.
+/// True if the straight line that ends here came through the plate, or if the shot lies in its lower half.
 bool came_through_plate(const Body& shot) {
     if (shot.position.z > 0) return false;
-    const Vec3 crossing = shot.position - shot.velocity * (shot.position.z / shot.velocity.z);
-    return length_in_plane(crossing) < closed_radius;
+    const double since = shot.velocity.z < 0 ? shot.position.z / shot.velocity.z : 0;
+    return length_in_plane(shot.position - shot.velocity * since) < closed_radius;
 }
 
 /// Fires one salvo, whose shots move between `least_travel` and `most_travel` metres in a step, and steps until the
