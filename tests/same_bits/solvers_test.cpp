@@ -186,7 +186,9 @@ World thin_world(unsigned seed) {
     if (random.chance(3)) options.drag = {.linear = 0.5, .quadratic = 0.05};
     World world(options);
     for (int k = 0; k < 343; ++k) {
-        const Vec3 lattice{k % 7 - 3.0, k / 7 % 7 - 3.0, k / 49 - 3.0};
+        const int row = k / 7 % 7;
+        const int layer = k / 49;
+        const Vec3 lattice{k % 7 - 3.0, row - 3.0, layer - 3.0};
         world.add({.position = lattice + random.vector(0.3), .velocity = random.vector(3), .radius = 0.1});
     }
     if (random.chance(2)) {
