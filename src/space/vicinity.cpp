@@ -137,8 +137,9 @@ std::uint32_t Vicinity<Real>::windows_worthwhile(const Census& census, double wa
 /// impact turns before or after the middle leaves its cover the sooner.
 template <class Real>
 double Vicinity<Real>::lead_share() const {
-    constexpr double least = 1.0 / 20; // of the bodies that turn in a window, for which it does not pay; measured
-    return 0.5 * std::max(0.0, 1 - turning_ / least);
+    // Where so large a part of the bodies turns in a window, it does not pay; measured.
+    constexpr double too_many = 1.0 / 20;
+    return 0.5 * std::max(0.0, 1 - turning_ / too_many);
 }
 
 /// Room for so many windows more: impacts make some bodies faster.

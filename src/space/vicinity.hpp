@@ -192,15 +192,15 @@ private:
     Ticks ticks_;
     TrackScale scale_{};
     Neighbours neighbours_;
-    double typical_room_ = 0;  ///< m
-    double typical_size_ = 0;  ///< m, of a cover
-    double reach_margin_ = 0;  ///< m, added to radii: more than all roundings of tracks
-    double longest_reach_ = 0; ///< m, of tracks
-    double horizon_ = 0;       ///< s that covers are meant to do for
-    std::array<float, 3> ticks_per_metre_{};
-    float tick_loss_ = 0;             ///< m, more than what ticks make of a place
-    double lead_ = 0;                 ///< s from when a cover is made to when its body is in its middle
-    double crowding_ = 0;             ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
+    double typical_room_ = 0;                ///< m
+    double typical_size_ = 0;                ///< m, of a cover
+    double reach_margin_ = 0;                ///< m, added to radii: more than all roundings of tracks
+    double longest_reach_ = 0;               ///< m, of tracks
+    double horizon_ = 0;                     ///< s that covers are meant to do for
+    double lead_ = 0;                        ///< s from when covers are made to when their bodies are in the middle
+    std::array<float, 3> ticks_per_metre_{}; ///< along each axis: division is too dear for each cover
+    float tick_loss_ = 0;                    ///< m, more than what ticks make of a place
+    double crowding_ = 0;                    ///< 1/m^3, pairs of neighbours per body and cube of a cover's size
     double turning_ = 0.1;            ///< part of the bodies that end a window on a new path, of late; first a guess
     std::uint32_t windows_ahead_ = 0; ///< that the lists were built for
 
