@@ -2,7 +2,7 @@
 #include "options.hpp"
 #include "scene/scene_error.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "scene/atomic_file.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>

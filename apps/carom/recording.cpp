@@ -7,8 +7,8 @@
 #include "scene/summary.hpp"
 #include "scene/timeline.hpp"
 
+#include <carom/base.hpp>
 #include <carom/body.hpp>
-#include <carom/error.hpp>
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include "scene/timeline.hpp"
 #include "simulation.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "scene/atomic_file.hpp"
 #include "scene/impact_log.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "scene/scene.hpp"
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <memory>
 #include <span>

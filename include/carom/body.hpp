@@ -2,7 +2,7 @@
 /// Bodies as the public API sees them: ids, one body, and columns of many.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <compare>
 #include <cstdint>

@@ -12,8 +12,8 @@
 /// largest speed.
 #pragma once
 
+#include <carom/base.hpp>
 #include <carom/time_of_impact.hpp>
-#include <carom/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>

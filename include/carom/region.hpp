@@ -2,7 +2,7 @@
 /// What bounds a world.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <array>
 #include <cstdint>

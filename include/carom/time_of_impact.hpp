@@ -20,7 +20,7 @@
 /// Accuracy: moved to the returned time, the gap is zero to a few eps times (path length + contact distance).
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 /// The world: bodies that move and collide, every impact at its exact time and in order.
 #pragma once
 
+#include <carom/base.hpp>
 #include <carom/body.hpp>
-#include <carom/error.hpp>
 #include <carom/events.hpp>
 #include <carom/executor.hpp>
 #include <carom/region.hpp>

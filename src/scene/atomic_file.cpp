@@ -1,6 +1,6 @@
 #include "scene/atomic_file.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 #include "scene/checkpoint.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <fmt/format.h>
 

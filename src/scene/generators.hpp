@@ -6,8 +6,8 @@
 #include "scene/occupancy.hpp"
 #include "scene/random.hpp"
 
+#include <carom/base.hpp>
 #include <carom/region.hpp>
-#include <carom/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "scene/scene.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <fmt/format.h>
 

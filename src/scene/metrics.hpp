@@ -2,8 +2,8 @@
 /// The figures that say how well a world kept its books: energy_drift and momentum_drift.
 #pragma once
 
+#include <carom/base.hpp>
 #include <carom/events.hpp>
-#include <carom/vec3.hpp>
 #include <carom/world.hpp>
 
 namespace carom::scene {

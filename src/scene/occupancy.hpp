@@ -2,7 +2,7 @@
 /// Finds quickly whether a new body has room among those that are there already.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <array>
 #include <cstddef>

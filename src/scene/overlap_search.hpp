@@ -2,8 +2,8 @@
 /// How much bodies overlap: an independent judge of the engine, which shares no code with it.
 #pragma once
 
+#include <carom/base.hpp>
 #include <carom/region.hpp>
-#include <carom/vec3.hpp>
 #include <carom/world.hpp>
 
 #include <array>

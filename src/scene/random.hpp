@@ -5,7 +5,7 @@
 
 #include "collision/portable_math.hpp"
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <array>
 #include <bit>

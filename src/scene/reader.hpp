@@ -4,7 +4,7 @@
 
 #include "scene/toml_value.hpp"
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <cstdint>
 #include <limits>

@@ -2,7 +2,7 @@
 /// The one exception type of scene files and what they name.
 #pragma once
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <stdexcept>
 #include <string>

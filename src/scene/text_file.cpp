@@ -3,7 +3,7 @@
 #include "scene/atomic_file.hpp"
 #include "scene/scene_error.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// What a run records over time: one row per step, or every so many, of energies, momentum and impacts.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 #include <carom/world.hpp>
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "space/motion.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <cmath>
 #include <string>

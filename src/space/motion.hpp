@@ -2,7 +2,7 @@
 /// How a body's motion is kept: an integer position, a velocity, and the time at which both hold.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <cmath>
 #include <cstdint>

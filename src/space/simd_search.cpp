@@ -1,6 +1,6 @@
 #include "space/simd_search.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 #include <carom/executor.hpp>
 
 // Vectors of a size that the compiler does not know cannot be kept in a struct: NEON does.

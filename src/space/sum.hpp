@@ -2,7 +2,7 @@
 /// Compensated sums, and exact ones.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <array>
 #include <bit>

@@ -5,7 +5,7 @@
 #include "space/bodies.hpp"
 #include "space/sum.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 #include <carom/world.hpp>
 
 #include <bit>

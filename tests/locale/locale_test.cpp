@@ -7,7 +7,7 @@
 #include "scene/summary.hpp"
 #include "scene/timeline.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// What the snippets of README.md expect of the program around them.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 /// Stands for the reader's own game.
 inline void play_sound(const carom::Vec3& /*position*/, double /*impulse*/) {}

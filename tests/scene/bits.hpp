@@ -2,7 +2,7 @@
 /// One number for many: pins down every bit of what a generator makes.
 #pragma once
 
-#include <carom/vec3.hpp>
+#include <carom/base.hpp>
 
 #include <bit>
 #include <cstdint>

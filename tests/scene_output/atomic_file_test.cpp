@@ -1,7 +1,7 @@
 #include "scene/atomic_file.hpp"
 #include "scene/temporary_folder.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

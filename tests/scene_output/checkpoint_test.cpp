@@ -1,7 +1,7 @@
 #include "scene/checkpoint.hpp"
 #include "scene/random.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 #include <carom/world.hpp>
 
 #include <gtest/gtest.h>

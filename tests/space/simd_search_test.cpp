@@ -3,7 +3,7 @@
 #include "same_bits/keeps_simd_target.hpp"
 #include "space/simd_search.hpp"
 
-#include <carom/error.hpp>
+#include <carom/base.hpp>
 #include <carom/executor.hpp>
 
 #include <gtest/gtest.h>
