@@ -13,6 +13,22 @@ inline bool comes_to_rest(double e, double approach, double pressing, double res
     return pressing > 0 && e < 1 && 2 * e * approach < (1 - e) * pressing * rest_time;
 }
 
+/// m/s, the fastest approach that the rest rule lets become a contact where an acceleration (m/s^2) presses two bodies
+/// together. What bounces little, or not at all, may bounce as fast as what bounces at e = 1/3: faster is an impact.
+inline double resting_speed(double e, double pressing, double rest_time) {
+    return e < 1 && pressing > 0 ? pressing * rest_time * std::min(1.0, (1 - e) / (2 * e)) : 0;
+}
+
+/// m/s, the approach above which what touches in a pile is struck. What presses bodies on each other there are their
+/// neighbours: with the load that both carry (m/s^2), and never less than the weight of a body.
+inline double striking_speed(double e, double load, const Laws& laws) {
+    return 2 * resting_speed(e, std::max(load, length(laws.gravity)), laws.rest_time);
+}
+template <class Real>
+double load_on(const Bodies<Real>& bodies, Index i) {
+    return i < bodies.loads.size() ? bodies.loads[i].pressing : 0;
+}
+
 /// Derives the times of Laws. A contact between bodies takes quick_time, in which gravity gives a speed of
 /// g quick_time and presses them g quick_time^2 / 2 into each other; more where the resolution would round that away.
 void set_contact_time(Laws& laws, const Resolution& resolution);

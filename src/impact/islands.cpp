@@ -42,17 +42,22 @@ Progress IslandSolver<Real>::resolve(const Census& census, Window window, bool k
         for (const auto& workshop : workshops_) impacts += workshop->log.size();
         given_up_ = outcome.all_impacts() + impacts > work_cap;
     }
-    if (!given_up_) commit(outcome);
+    const double end = given_up_ ? window.to : end_of_window();
+    if (!given_up_ && end == window.to) commit(outcome);
     clear_window();
     costs_.seconds.impacts += watch.lap();
-    return given_up_ ? resolve_serially(census, work_cap, outcome) : Progress{.reached = window.to};
+    if (given_up_) return resolve_serially(census, work_cap, outcome);
+    if (end == window.to) return {.reached = end, .until = end};
+    // Once more, up to where bodies that came to lean on each other get new velocities.
+    vicinity_.forget();
+    return {.reached = window.from, .until = end};
 }
 
 /// A window that ends early, or may: where exactly, the one queue knows.
 template <class Real>
 Progress IslandSolver<Real>::resolve_serially(const Census& census, std::uint64_t work_cap, Outcome& outcome) {
     vicinity_.forget();
-    return serial_.resolve(census, window_.from, window_.to, work_cap, outcome);
+    return serial_.resolve(census, window_, work_cap, outcome);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -309,8 +314,8 @@ bool IslandSolver<Real>::paths_meet(const Member& a, const Member& b) const {
     }
     const auto for_each_leg = [this](const Member& member, auto&& f) {
         const std::uint32_t slot = state_.bodies.slot[member.body];
-        const auto path_of = [slot](const Flown<Real>& flown) {
-            return Path<Real>{&flown.motion, flown.acceleration, flown.kind, slot};
+        const auto path_of = [this, slot, &member](const Flown<Real>& flown) {
+            return Path<Real>{&flown.motion, flown.acceleration, flown.kind, slot, &state_.bodies, member.body};
         };
         const Turned<Real>& last = turned_of(member);
         const Flown<Real> last_path = workshops_[member.part]->last_path(last);
@@ -414,6 +419,17 @@ void IslandSolver<Real>::join_group(std::span<const std::uint32_t> group) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
+double IslandSolver<Real>::end_of_window() const {
+    double end = window_.to;
+    for (const auto& workshop : workshops_) {
+        for (const Occurrence& occurrence : workshop->log) {
+            if (occurrence.piles_up) end = std::min(end, window_.end_for_pile(occurrence.impact.offset));
+        }
+    }
+    return end;
+}
+
+template <class Real>
 void IslandSolver<Real>::commit(Outcome& outcome) {
     write_back();
     remember_flights();
@@ -437,9 +453,9 @@ void IslandSolver<Real>::write_back() {
         const Member& member = members_[k];
         if (member.turned != nowhere) bodies.motion[member.body] = turned_of(member).motion;
     });
-    const bool one_is_held = std::any_of(workshops_.begin(), workshops_.end(),
-                                         [](const auto& workshop) { return !workshop->holds.empty(); });
-    if (one_is_held || !bodies.holds.empty()) write_holds_back();
+    const bool one_rests =
+        std::any_of(workshops_.begin(), workshops_.end(), [](const auto& workshop) { return workshop->any_rests(); });
+    if (one_rests || !bodies.holds.empty()) write_holds_back();
 }
 
 template <class Real>
@@ -449,6 +465,7 @@ void IslandSolver<Real>::write_holds_back() {
         if (member.turned == nowhere) continue;
         const Turned<Real>& turned = turned_of(member);
         release(bodies, member.body);
+        if (turned.kind == Kind::piled && bodies.kind[member.body] != Kind::piled) bodies.newly_piled = true;
         bodies.kind[member.body] = turned.kind;
         if (turned.hold != nowhere) {
             bodies.holds[bodies.slot[member.body]] = workshops_[member.part]->holds[turned.hold];

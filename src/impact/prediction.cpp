@@ -120,6 +120,46 @@ double predict_free_pair(const State<Real>& state, const Motion<Real>& m_a, cons
     return start + (time == 0 ? immediate<Real>(m) : time);
 }
 
+template <class Real>
+double predict_in_order(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, double now, double until) {
+    const double start = std::max(a.motion->t, b.motion->t);
+    if (state.bounds.any_periodic()) return start + time_over_images(state, a, b, start, now, until);
+    const Meeting m = meeting_at(state, a, b, start);
+    return start + time_to_image(state, a, b, m, m.delta, start, until);
+}
+
+/// Whether contacts keep two bodies apart, unless one strikes the other.
+template <class Real>
+bool is_in_pile(const Path<Real>& a, const Path<Real>& b) {
+    const auto can_be = [](Kind kind) { return kind == Kind::piled || kind == Kind::fixed; };
+    return (a.kind == Kind::piled && can_be(b.kind)) || (b.kind == Kind::piled && can_be(a.kind));
+}
+
+/// Two bodies of a pile, which move straight: only what is faster than a contact allows is an impact.
+template <class Real>
+double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, double now, double until) {
+    const Encounter encounter = encounter_of(state.laws, *a.bodies, a.index, *b.bodies, b.index);
+    double load = std::numeric_limits<double>::infinity();
+    if (a.kind == Kind::piled) load = load_on(*a.bodies, a.index);
+    if (b.kind == Kind::piled) load = std::min(load, load_on(*b.bodies, b.index));
+    const double strike = striking_speed(encounter.restitution, load, state.laws);
+    if (length_squared(velocity_of(*a.motion) - velocity_of(*b.motion)) <= strike * strike) return no_impact;
+    const double time = predict_in_order(state, a, b, now, until);
+    if (time > until) return no_impact;
+    const Meeting m = meeting_at(state, a, b, time);
+    return dot(m.v_a - m.v_b, contact_normal(m.delta, Vec3{})) > strike ? time : no_impact;
+}
+
+/// The same at a wall, for a time of impact `time` s after the body's own.
+template <class Real>
+bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall, double time) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const Vec3 v = velocity_of(m);
+    const Vec3 normal = state.bounds.normal(wall, m.x, v * time, state.resolution);
+    const double load = load_on(state.bodies, body);
+    return dot(v, normal) > striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
+}
+
 } // namespace
 
 template <class Real>
@@ -129,10 +169,8 @@ double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<R
     const bool in_order = i.slot < j.slot;
     const Path<Real>& a = in_order ? i : j;
     const Path<Real>& b = in_order ? j : i;
-    const double start = std::max(a.motion->t, b.motion->t);
-    if (state.bounds.any_periodic()) return start + time_over_images(state, a, b, start, now, until);
-    const Meeting m = meeting_at(state, a, b, start);
-    return start + time_to_image(state, a, b, m, m.delta, start, until);
+    if (is_in_pile(a, b)) return predict_in_pile(state, a, b, now, until);
+    return predict_in_order(state, a, b, now, until);
 }
 
 template <class Real>
@@ -166,6 +204,9 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
         time = time_to_shell_inside(from_centre, v, a, state.bounds.shell_radius() - radius, horizon);
     } else {
         time = time_to_plane(gap, -dot(v, face.normal), -dot(a, face.normal), horizon);
+    }
+    if (bodies.kind[body] == Kind::piled) {
+        return time <= horizon && strikes_wall(state, body, face, time) ? m.t + time : no_impact;
     }
     if (gap > state.resolution.metres || time > horizon) return m.t + time;
     // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.

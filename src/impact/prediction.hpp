@@ -17,11 +17,14 @@ struct Path {
     Vec3 acceleration{}; ///< m/s^2
     Kind kind = Kind::free;
     std::uint32_t slot = 0;
+    const Bodies<Real>* bodies = nullptr; ///< the list that has the body's properties,
+    Index index = no_index;               ///< and where
 };
 
 template <class Real>
 Path<Real> path_of(const State<Real>& state, Index i) {
-    return {&state.bodies.motion[i], acceleration_of(state, i), state.bodies.kind[i], state.bodies.slot[i]};
+    const Bodies<Real>& bodies = state.bodies;
+    return {&bodies.motion[i], acceleration_of(state, i), bodies.kind[i], bodies.slot[i], &bodies, i};
 }
 
 /// Two bodies seen at one time.

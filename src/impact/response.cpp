@@ -115,7 +115,8 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     Vec3 v = velocity_of(state.bodies.motion[body]);
     const double approach = dot(v, support.normal);
     bool stays = false;
-    bool come_to_rest = rests(state, body, support, v, approach, encounter.restitution);
+    const bool is_piled = state.bodies.kind[body] == Kind::piled;
+    bool come_to_rest = !is_piled && rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
@@ -123,7 +124,8 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
-        come_to_rest = come_to_rest || (squeezed && pressure_here(state, body, support, v).acceleration >= 0);
+        come_to_rest =
+            come_to_rest || (squeezed && !is_piled && pressure_here(state, body, support, v).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -288,11 +290,29 @@ bool meet_lying(State<Real>& state, Index a, Index b, const Meeting& meeting, co
     return true;
 }
 
+/// Whether two bodies that move come to rest against each other. Free flight needs no support: one of them has one.
+template <class Real>
+bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& n, double e) {
+    const Bodies<Real>& bodies = state.bodies;
+    if (!rests(bodies.kind[a]) && !rests(bodies.kind[b])) return false;
+    if (bodies.kind[a] == Kind::piled && bodies.kind[b] == Kind::piled) return false;
+    const Vec3 pull = pull_on(state, b) - pull_on(state, a);
+    const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);
+    const double speed = resting_speed(e, pressing, state.laws.rest_time);
+    return speed > 0 && dot(meeting.v_a - meeting.v_b, n) <= speed;
+}
+
 /// Two bodies that both move.
 template <class Real>
 void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& pull, Occurrence& occurrence) {
     const ImpactRecord& impact = occurrence.impact;
     Encounter encounter = encounter_of(state, a, b);
+    if (come_to_lean(state, a, b, meeting, impact.normal, encounter.restitution)) {
+        pile_up(state.bodies, a);
+        pile_up(state.bodies, b);
+        occurrence.piles_up = true;
+        return;
+    }
     Vec3 v_a = meeting.v_a;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);

@@ -14,17 +14,17 @@ double tick_scale(const Census& census, double duration, const Resolution& resol
 } // namespace
 
 template <class Real>
-Progress SerialSolver<Real>::resolve(const Census& census, double from, double to, std::uint64_t work_cap,
+Progress SerialSolver<Real>::resolve(const Census& census, const Window& window, std::uint64_t work_cap,
                                      Outcome& outcome) {
     Stopwatch watch;
     recall_flights();
-    find_neighbours(census, from, to);
+    find_neighbours(census, window.from, window.to);
     costs_.seconds.cells += watch.lap();
     queue_.clear();
-    predict_first(from, to);
+    predict_first(window.from, window.to);
     costs_.seconds.pairs += watch.lap();
     const std::uint64_t before = outcome.impacts;
-    const Progress progress = run_queue(to, work_cap, outcome);
+    const Progress progress = run_queue(window, work_cap, outcome);
     remember_flights(progress.reached);
     impacts_per_body_ = static_cast<double>(outcome.impacts - before) / static_cast<double>(state_.bodies.size() + 1);
     costs_.seconds.impacts += watch.lap();
@@ -88,32 +88,34 @@ void SerialSolver<Real>::predict_first(double from, double to) {
 }
 
 template <class Real>
-Progress SerialSolver<Real>::run_queue(double to, std::uint64_t work_cap, Outcome& outcome) {
-    while (!queue_.empty()) {
+Progress SerialSolver<Real>::run_queue(const Window& window, std::uint64_t work_cap, Outcome& outcome) {
+    double to = window.to;
+    while (!queue_.empty() && queue_.top().time <= to) {
         const Event event = queue_.top();
         if (queue_.outdated(event)) {
             queue_.pop();
             continue;
         }
         if (work_cap != 0 && outcome.all_impacts() >= work_cap) {
-            return {.reached = event.time, .work_cap_reached = true};
+            return {.reached = event.time, .until = to, .work_cap_reached = true};
         }
-        if (neighbours_.crowded()) return {.reached = event.time};
+        if (neighbours_.crowded()) return {.reached = event.time, .until = to};
         queue_.pop();
         prefetch_next();
         Occurrence occurrence;
         execute(state_, event, occurrence);
         state_.books.add(occurrence.entry);
         outcome.add(occurrence);
+        if (occurrence.piles_up) to = std::min(to, window.end_for_pile(event.time));
         bool inside = register_motion(event.a, event.time, to);
         if (!event.at_wall()) inside = register_motion(event.b, event.time, to) && inside;
-        if (!inside) return {.reached = event.time, .edge_reached = true};
+        if (!inside) return {.reached = event.time, .until = to, .edge_reached = true};
         predict_again(event.a, no_index, event.time, to);
         if (event.at_wall()) continue;
         const bool seen_from_a = state_.bodies.kind[event.a] != Kind::fixed;
         predict_again(event.b, seen_from_a ? event.a : no_index, event.time, to);
     }
-    return {.reached = to};
+    return {.reached = to, .until = to};
 }
 
 /// Successive impacts are anywhere in space, so in memory: asking for the next ones' bodies while this one is worked on

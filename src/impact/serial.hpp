@@ -7,6 +7,7 @@
 #include "impact/response.hpp"
 #include "space/neighbours.hpp"
 #include "space/ticks.hpp"
+#include "space/window.hpp"
 
 #include <memory>
 #include <utility>
@@ -22,6 +23,7 @@ struct SolverCosts {
 /// How far one window got.
 struct Progress {
     double reached = 0; ///< s since the start of the step
+    double until = 0; ///< where the window is to end: earlier than it was meant to if bodies came to lean on each other
     bool work_cap_reached = false;
     bool edge_reached = false;
 };
@@ -32,8 +34,8 @@ class SerialSolver {
 public:
     explicit SerialSolver(State<Real>& state) : state_(state), queue_(state.bodies) {}
 
-    /// Executes all impacts in [from, to] (s since the start of the step).
-    Progress resolve(const Census& census, double from, double to, std::uint64_t work_cap, Outcome& outcome);
+    /// Executes all impacts of a window.
+    Progress resolve(const Census& census, const Window& window, std::uint64_t work_cap, Outcome& outcome);
 
     [[nodiscard]] const Neighbours& neighbours() const { return neighbours_; }
     /// Cells to sort anything into, between windows.
@@ -46,7 +48,7 @@ private:
     void remember_flights(double now);
     void find_neighbours(const Census& census, double from, double to);
     void predict_first(double from, double to);
-    Progress run_queue(double to, std::uint64_t work_cap, Outcome& outcome);
+    Progress run_queue(const Window& window, std::uint64_t work_cap, Outcome& outcome);
 
     void prefetch_next() const;
     void prefetch_neighbours(Index body) const;

@@ -41,6 +41,7 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     to_ = window.to;
     most_occurrences_ = most_occurrences;
     given_up_ = false;
+    any_rests_ = false;
     predictions_ = 0;
     local_.bounds = state.bounds;
     local_.resolution = state.resolution;
@@ -64,6 +65,7 @@ void Workshop<Real>::clear() {
     bodies.slot.clear();
     bodies.course.clear();
     bodies.holds.clear();
+    bodies.loads.clear();
     guests_.clear();
     places_.clear();
     turned_.clear();
@@ -86,6 +88,7 @@ Index Workshop<Real>::admit(Index body, bool as_own) {
     bodies.friction.append(from.friction[body], place);
     bodies.material.append(from.material[body], place);
     bodies.course.push_back({.flight = recent_flight(from, slot)});
+    if (!from.loads.empty()) bodies.loads.push_back(from.loads[body]);
     if (from.kind[body] == Kind::held) bodies.holds[slot] = hold_of(from, body);
     guests_.push_back({.body = body, .is_own = as_own});
     places_.insert(body, place);
@@ -271,6 +274,7 @@ void Workshop<Real>::put_out(Outturn& outturn) {
             result.flight = static_cast<std::uint32_t>(flights.size());
             flights.push_back(flight);
         }
+        any_rests_ = any_rests_ || rests(result.kind);
         if (result.kind == Kind::held) {
             result.hold = static_cast<std::uint32_t>(holds.size());
             holds.push_back(hold_of(local_.bodies, local));

@@ -76,11 +76,12 @@ public:
 
     /// The window is for the one queue: an island has too many impacts, or a body leaves the world.
     [[nodiscard]] bool has_given_up() const { return given_up_; }
+    /// Whether a body that turned came to rest, or rests on.
+    [[nodiscard]] bool any_rests() const { return any_rests_; }
     [[nodiscard]] std::uint64_t predictions() const { return predictions_; }
     /// The last path of a body that turned.
     [[nodiscard]] Flown<Real> last_path(const Turned<Real>& body) const {
-        const Vec3& a = body.hold == nowhere ? local_.laws.gravity : holds[body.hold].acceleration;
-        return {body.motion, a, body.kind};
+        return {body.motion, last_acceleration(body), body.kind};
     }
 
     // Of all islands since open().
@@ -105,6 +106,10 @@ private:
         Track track{}; ///< once it has turned
     };
 
+    [[nodiscard]] Vec3 last_acceleration(const Turned<Real>& body) const {
+        if (body.kind == Kind::free) return local_.laws.gravity;
+        return body.hold == nowhere ? Vec3{} : holds[body.hold].acceleration;
+    }
     void clear();
     Index admit(Index body, bool as_own);
     bool take(const Event& event);
@@ -124,6 +129,7 @@ private:
     double to_ = 0;
     std::size_t most_occurrences_ = 0;
     bool given_up_ = false;
+    bool any_rests_ = false;
     std::uint64_t predictions_ = 0;
 
     State<Real> local_;

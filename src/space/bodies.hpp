@@ -26,7 +26,11 @@ enum class Kind : std::uint8_t {
     free,  ///< uniform gravity
     fixed, ///< nothing: a static body
     held,  ///< its Hold: it rests against faces or static bodies
+    piled, ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
 };
+
+/// Whether something carries a body, so that it is not in free flight.
+constexpr bool rests(Kind kind) { return kind == Kind::held || kind == Kind::piled; }
 
 /// Counts a body's impacts in quick succession: state of the TC rule and of the jam rule.
 struct Flight {
@@ -79,6 +83,24 @@ struct Hold {
     bool sticks = false;           ///< friction outweighs what pulls along the supports
 };
 
+/// The force between a piled body and what it touches, kept from one step to the next.
+struct ContactForce {
+    std::uint32_t a = 0;    ///< slot of a piled body; of two, the lower one
+    std::uint32_t code = 0; ///< the other's slot, or Support::wall_bit | index of a wall of the Bounds
+    double normal = 0;      ///< N, >= 0, pushes them apart
+    Vec3 friction{};        ///< N, on the other
+
+    friend bool operator<(const ContactForce& x, const ContactForce& y) {
+        return std::pair(x.a, x.code) < std::pair(y.a, y.code);
+    }
+};
+
+/// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.
+struct Load {
+    Vec3 pull{};         ///< m/s^2, what all forces, those of the contacts too, last did to it
+    double pressing = 0; ///< m/s^2, what the strongest of its contacts does to it
+};
+
 /// All bodies of a world, one element of each array per body.
 template <class Real>
 struct Bodies {
@@ -94,6 +116,9 @@ struct Bodies {
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
+    std::vector<ContactForce> contacts;       ///< of the piled bodies, in their order; between steps
+    std::vector<Load> loads;                  ///< per body, inside a step with contacts
+    bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
     std::vector<Course> course;               ///< per body, only while a solver works on these bodies
     std::vector<Index> slots;                 ///< the table of ids: where the body is; no_index if the slot is free
@@ -137,6 +162,14 @@ Flight recent_flight(const Bodies<Real>& bodies, std::uint32_t slot) {
     return place != flights.end() && place->slot == slot ? place->flight : Flight{};
 }
 
+/// A body leans on another that moves, or another on it.
+template <class Real>
+void pile_up(Bodies<Real>& bodies, Index index) {
+    if (bodies.kind[index] == Kind::held) bodies.holds.erase(bodies.slot[index]);
+    bodies.kind[index] = Kind::piled;
+    bodies.newly_piled = true;
+}
+
 /// Lets a held body go; any other stays as it is.
 template <class Real>
 void release(Bodies<Real>& bodies, Index index) {
@@ -145,10 +178,17 @@ void release(Bodies<Real>& bodies, Index index) {
     bodies.kind[index] = Kind::free;
 }
 
+/// Ends a body's rest, whatever it rests on.
+template <class Real>
+void let_go(Bodies<Real>& bodies, Index index) {
+    release(bodies, index);
+    if (bodies.kind[index] == Kind::piled) bodies.kind[index] = Kind::free;
+}
+
 /// Takes the body at `index` out; the last body moves into its place. The slot becomes free.
 template <class Real>
 void remove_body(Bodies<Real>& bodies, Index index) {
-    release(bodies, index);
+    let_go(bodies, index);
     const std::uint32_t slot = bodies.slot[index];
     std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
     bodies.slots[bodies.slot.back()] = index;
@@ -159,6 +199,15 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     bodies.slots[slot] = no_index;
     // A slot whose generations are used up is given out no more: old ids must stay stale.
     if (++bodies.generations[slot] != 0) bodies.free_slots.push_back(slot);
+}
+
+/// Forgets the contacts of bodies that are gone.
+template <class Real>
+void drop_stale_contacts(Bodies<Real>& bodies) {
+    const auto is_gone = [&bodies](std::uint32_t slot) { return bodies.slots[slot] == no_index; };
+    std::erase_if(bodies.contacts, [&](const ContactForce& c) {
+        return is_gone(c.a) || ((c.code & Support::wall_bit) == 0 && is_gone(c.code));
+    });
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by

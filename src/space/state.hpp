@@ -72,18 +72,22 @@ struct Encounter {
     double friction = 0;
 };
 
-/// How two bodies meet: the larger e, the geometric mean of mu, unless a rule says otherwise.
+/// How two bodies, of one list or of two, meet: the larger e, the geometric mean of mu, unless a rule says otherwise.
 template <class Real>
-Encounter encounter_of(const State<Real>& state, Index a, Index b) {
-    const Bodies<Real>& bodies = state.bodies;
-    for (const MaterialRule& rule : state.laws.rules) {
-        const bool straight = rule.a == bodies.material[a] && rule.b == bodies.material[b];
-        const bool crossed = rule.a == bodies.material[b] && rule.b == bodies.material[a];
+Encounter encounter_of(const Laws& laws, const Bodies<Real>& of_a, Index a, const Bodies<Real>& of_b, Index b) {
+    for (const MaterialRule& rule : laws.rules) {
+        const bool straight = rule.a == of_a.material[a] && rule.b == of_b.material[b];
+        const bool crossed = rule.a == of_b.material[b] && rule.b == of_a.material[a];
         if (straight || crossed) return {rule.restitution, rule.friction};
     }
-    const auto mu_a = static_cast<double>(bodies.friction[a]);
-    const auto mu_b = static_cast<double>(bodies.friction[b]);
-    return {static_cast<double>(std::max(bodies.restitution[a], bodies.restitution[b])), std::sqrt(mu_a * mu_b)};
+    const auto mu_a = static_cast<double>(of_a.friction[a]);
+    const auto mu_b = static_cast<double>(of_b.friction[b]);
+    return {static_cast<double>(std::max(of_a.restitution[a], of_b.restitution[b])), std::sqrt(mu_a * mu_b)};
+}
+
+template <class Real>
+Encounter encounter_of(const State<Real>& state, Index a, Index b) {
+    return encounter_of(state.laws, state.bodies, a, state.bodies, b);
 }
 
 /// How a body meets a face: the face's e and mu where it has them, else the body's.
@@ -103,9 +107,17 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
     case Kind::held:
         return hold_of(state.bodies, i).acceleration;
     case Kind::fixed:
+    case Kind::piled:
         break;
     }
     return {};
+}
+
+/// m/s^2, what accelerates a body as far as it presses on others.
+template <class Real>
+Vec3 pull_on(const State<Real>& state, Index i) {
+    const bool is_solved = state.bodies.kind[i] == Kind::piled && i < state.bodies.loads.size();
+    return is_solved ? state.bodies.loads[i].pull : acceleration_of(state, i);
 }
 
 /// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.
@@ -162,6 +174,15 @@ void book_held_way(const State<Real>& state, Index i, const Vec3& a, const Vec3&
     entry.lost_to_friction -= mass * dot(hold_of(state.bodies, i).friction, d);
 }
 
+/// The same of a piled body, which moves straight: what gravity did to it was or will be entered with its contacts, but
+/// not the work on its way.
+template <class Real>
+void book_piled_way(const State<Real>& state, Index i, const Vec3& d, double duration, Entry& entry) {
+    const auto mass = static_cast<double>(state.bodies.mass[i]);
+    entry.held_mass_time += mass * duration;
+    entry.lost_to_restitution += mass * dot(state.laws.gravity, d);
+}
+
 /// Brings a motion with constant acceleration to time `s`, and returns its way, m: the one place that rounds a
 /// position.
 template <class Real>
@@ -182,8 +203,13 @@ void advance(State<Real>& state, Index i, double s, Entry& entry) {
     Motion<Real>& m = state.bodies.motion[i];
     const double duration = s - m.t;
     const Vec3 a = acceleration_of(state, i);
+    const Int3 start = m.x;
     const Vec3 d = move_on(m, a, s, state.resolution);
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
+    if (state.bodies.kind[i] == Kind::piled) {
+        // What creeps by less than the resolution stays, and gravity does no work on it.
+        book_piled_way(state, i, to_metres(m.x - start, state.resolution), duration, entry);
+    }
 }
 
 } // namespace carom::core

@@ -45,7 +45,8 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
     // The frame of the covers is another one then.
     if (kicked != kicked_) forget();
     kicked_ = kicked;
-    step_end_ = window.step_end;
+    piece_end_ = window.piece_end;
+    step_end_ = window.step_end();
     track_search_ = track_search();
     clear_for_reuse(exits_);
     if (continues_epoch(window)) {
@@ -54,6 +55,7 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
         window_end_ = static_cast<float>(exact_relative(window.to) + slack * length_);
         neighbours_.drop_extensions();
         if (window.from == 0) charge_held();
+        if (window.begins_piece) charge_piled();
         renew_disturbed();
     } else {
         start_epoch(census, window);
@@ -78,7 +80,7 @@ bool Vicinity<Real>::continues_epoch(const Window& window) const {
 template <class Real>
 void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
     const double duration = window.to - window.from;
-    const double left = std::clamp(std::round((window.step_end - window.from) / duration), 1.0,
+    const double left = std::clamp(std::round((window.step_end() - window.from) / duration), 1.0,
                                    static_cast<double>(Calendar::most_windows));
     const auto left_in_step = static_cast<std::uint32_t>(left);
     clear_for_reuse(disturbed_);
@@ -103,7 +105,7 @@ void Vicinity<Real>::set_epoch(const Window& window, std::uint32_t windows) {
     frame_ = kicked_ ? Vec3{} : state_.laws.gravity;
     fall_ = 0.5 * length(frame_) * duration * duration;
     // A path bends from the body's own time on, which may be the start of the step.
-    sag_ = 0.5 * length(state_.laws.gravity - frame_) * window.step_end * window.step_end;
+    sag_ = 0.5 * length(state_.laws.gravity - frame_) * window.step_end() * window.step_end();
     window_start_ = 0;
     window_end_ = static_cast<float>(length_ * (1 + slack));
 }
@@ -167,6 +169,7 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
         if (room_at(body, needed) < 0) ++without_room[part];
     });
     charge_held();
+    if (window.begins_piece) charge_piled();
     std::size_t all = 0;
     for (const std::size_t count : without_room) all += count;
     constexpr std::size_t few = 16;
@@ -283,18 +286,30 @@ void Vicinity<Real>::renew_exits() {
 /// Takes the room that the held bodies need in the step.
 template <class Real>
 void Vicinity<Real>::charge_held() {
-    for (const auto& [slot, hold] : state_.bodies.holds) {
-        const Index body = state_.bodies.slots[slot];
-        tracks_[body].room -= static_cast<float>(held_way(state_.bodies.motion[body], hold.acceleration));
-        if (tracks_[body].room < 0) exits_.push_back(body);
+    for (const auto& [slot, hold] : state_.bodies.holds) charge(state_.bodies.slots[slot]);
+}
+
+/// Takes the room that the piled bodies need in the piece.
+template <class Real>
+void Vicinity<Real>::charge_piled() {
+    for (Index body = 0; body < state_.bodies.size(); ++body) {
+        if (state_.bodies.kind[body] == Kind::piled) charge(body);
     }
 }
 
-/// m, at least what a held body moves until the end of the step; it may also be put back onto a curved support, by no
-/// more than it slid.
 template <class Real>
-double Vicinity<Real>::held_way(const Motion<Real>& motion, const Vec3& acceleration) const {
-    const double duration = step_end_ - motion.t;
+void Vicinity<Real>::charge(Index body) {
+    const Motion<Real>& motion = state_.bodies.motion[body];
+    const double way = resting_way(motion, acceleration_of(state_, body), state_.bodies.kind[body]);
+    tracks_[body].room -= static_cast<float>(way);
+    if (tracks_[body].room < 0) exits_.push_back(body);
+}
+
+/// m, at least what a held body moves until the end of the step, or a piled one until that of the piece; a held one may
+/// also be put back onto a curved support, by no more than it slid.
+template <class Real>
+double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const {
+    const double duration = (kind == Kind::piled ? piece_end_ : step_end_) - motion.t;
     return 2 * (length(velocity_of(motion)) + length(acceleration) * duration) * duration +
            2 * state_.resolution.metres;
 }
@@ -349,7 +364,7 @@ float Vicinity<Real>::room_left(Index body, const Flown<Real>& path) const {
     const double duration = end - turn;
     if (path.acceleration != frame_) distance += 0.5 * length(path.acceleration - frame_) * duration * duration;
     // What is held stays behind the falling frame: it needs another cover, unless it has one already.
-    if (path.kind == Kind::held) distance += held_way(path.motion, path.acceleration) + fall_;
+    if (rests(path.kind)) distance += resting_way(path.motion, path.acceleration, path.kind) + fall_;
     return static_cast<float>(static_cast<double>(room_at(body, known)) - distance - reach_margin_);
 }
 
@@ -369,7 +384,7 @@ Vec3 Vicinity<Real>::place_on_track(const Motion<Real>& motion, double time) con
 
 template <class Real>
 Track Vicinity<Real>::track_in_window(const Flown<Real>& path) const {
-    const double room = path.kind == Kind::held ? held_way(path.motion, path.acceleration) : 0;
+    const double room = rests(path.kind) ? resting_way(path.motion, path.acceleration, path.kind) : 0;
     return track_of(path.motion, path.kind, room);
 }
 
@@ -449,8 +464,8 @@ template <class Real>
 void Vicinity<Real>::take_track(Index body, float room, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const Kind kind = state_.bodies.kind[body];
-    // The room of a held body is what it has beside its way in this step.
-    const double way = kind == Kind::held ? held_way(m, acceleration_of(state_, body)) : 0;
+    // The room of a body at rest is what it has beside its way in this step or piece.
+    const double way = rests(kind) ? resting_way(m, acceleration_of(state_, body), kind) : 0;
     put_track(body, track_of(m, kind, static_cast<double>(std::max(0.0F, room)) + way), room, now);
 }
 
@@ -502,19 +517,19 @@ void Vicinity<Real>::take_room(Index body, float now) {
         take_track(body, 0, now);
         return;
     }
-    const bool is_held = kind == Kind::held;
+    const bool is_resting = rests(kind);
     const double speed = length(velocity_of(m) - frame_ * exact_relative(m.t));
     const double needed =
-        is_held ? held_way(m, acceleration_of(state_, body)) : speed * length_ * (1 + 2 * slack) + sag_;
+        is_resting ? resting_way(m, acceleration_of(state_, body), kind) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
     const double around = std::clamp(spare * speed * (horizon_ - lead_), typical_room_, most_rooms * typical_room_);
     const double ahead = speed * static_cast<double>(std::max(0.0F, middle_ - now));
-    const double room = around + (!is_held && around >= ahead ? ahead : 0);
+    const double room = around + (!is_resting && around >= ahead ? ahead : 0);
     take_track(body, static_cast<float>(room), now);
     if (needed > room || tracks_[body].room < 0) {
         tracks_[body] = {.start = ticks_.of(m.x), .reach = -std::numeric_limits<float>::infinity(), .room = -1};
-    } else if (is_held) {
+    } else if (is_resting) {
         tracks_[body].room -= static_cast<float>(needed);
     }
 }
@@ -588,7 +603,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
     if (state_.bounds.walls().empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
-    if (state_.bodies.kind[body] == Kind::held) {
+    if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);
         return;
     }

@@ -7,15 +7,9 @@
 #include "space/state.hpp"
 #include "space/ticks.hpp"
 #include "space/track.hpp"
+#include "space/window.hpp"
 
 namespace carom::core {
-
-/// A part of a step, s since the start of the step.
-struct Window {
-    double from = 0;
-    double to = 0;
-    double step_end = 0;
-};
 
 /// A path: how a body moves until something strikes it.
 template <class Real>
@@ -139,7 +133,9 @@ private:
     void renew_disturbed();
     void renew_exits();
     void charge_held();
-    [[nodiscard]] double held_way(const Motion<Real>& motion, const Vec3& acceleration) const;
+    void charge_piled();
+    void charge(Index body);
+    [[nodiscard]] double resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const;
 
     [[nodiscard]] bool suits_tracks(double speed, double reach) const;
     [[nodiscard]] Track track_of(const Motion<Real>& motion, Kind kind, double room) const;
@@ -209,6 +205,7 @@ private:
     bool kicked_ = false;       ///< velocities change in every step, and so do tracks
     double epoch_ = 0;          ///< s since the start of the step, when the epoch began
     double length_ = 0;         ///< s, of a window
+    double piece_end_ = 0;      ///< s since the start of the step
     double step_end_ = 0;       ///< s since the start of the step
     std::uint32_t windows_ = 0; ///< in the epoch
     std::uint32_t window_ = 0;  ///< the present one

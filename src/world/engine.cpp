@@ -86,7 +86,7 @@ Setting checked_setting(WorldOptions options) {
 
 template <class Real>
 Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
-    : setting_(std::move(setting)), world_tag_(world_tag), serial_(state_), islands_(state_, serial_),
+    : setting_(std::move(setting)), world_tag_(world_tag), pile_(state_), serial_(state_), islands_(state_, serial_),
       placement_(state_) {
     const WorldOptions& options = setting_.options;
     state_.resolution = setting_.resolution;
@@ -104,7 +104,7 @@ template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
-      impacts_(other.impacts_), serial_(state_), islands_(state_, serial_), placement_(state_),
+      impacts_(other.impacts_), pile_(state_), serial_(state_), islands_(state_, serial_), placement_(state_),
       last_start_(other.last_start_), last_step_(other.last_step_) {
     set_executor(other.executor_);
 }
@@ -175,6 +175,7 @@ template <class Real>
 void Engine<Real>::set_executor(std::shared_ptr<Executor> executor) {
     if (!executor) throw Error(ErrorCode::out_of_range, "executor", "must not be null");
     executor_ = std::move(executor);
+    pile_.use(*executor_);
     islands_.use(executor_);
 }
 

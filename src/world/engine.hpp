@@ -2,6 +2,7 @@
 /// The world behind carom::World, for one precision.
 #pragma once
 
+#include "contact/pile.hpp"
 #include "impact/islands.hpp"
 #include "space/placement.hpp"
 #include "space/state.hpp"
@@ -115,6 +116,8 @@ private:
     void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
+    /// Resolves the windows [from, to] of the same piece.
+    Progress resolve_piece(const Census& census, const Window& all, std::uint32_t windows);
     Progress resolve_window(const Census& census, const Window& window);
     /// Drag or attractors change velocities at the ends of steps.
     [[nodiscard]] bool has_kicks() const;
@@ -149,6 +152,7 @@ private:
     [[nodiscard]] bool bodies_are_sound() const;
     [[nodiscard]] bool flights_are_sound() const;
     [[nodiscard]] bool holds_are_sound() const;
+    [[nodiscard]] bool contacts_are_sound() const;
     [[nodiscard]] bool attractors_are_sound() const;
 
     Setting setting_;
@@ -162,6 +166,7 @@ private:
     Outcome outcome_;
     std::vector<Impact> impacts_;
     std::shared_ptr<Executor> executor_;
+    Pile<Real> pile_;
     SerialSolver<Real> serial_;
     IslandSolver<Real> islands_;
     Placement<Real> placement_;

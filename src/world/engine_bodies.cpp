@@ -87,7 +87,7 @@ bool Engine<Real>::contains(BodyId id) const noexcept {
 
 template <class Real>
 bool Engine<Real>::held(BodyId id) const {
-    return state_.bodies.kind[index_of(id, Error::no_index)] == Kind::held;
+    return rests(state_.bodies.kind[index_of(id, Error::no_index)]);
 }
 
 template <class Real>
@@ -367,9 +367,9 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);
         if (former_kinds[k] == Kind::fixed && moved) release_from(state_.bodies, ids[k].slot);
-        if (former_kinds[k] != Kind::held) continue;
-        state_.bodies.holds.erase(ids[k].slot);
-        if (state_.bodies.kind[indices[k]] == Kind::held) state_.bodies.kind[indices[k]] = Kind::free;
+        if (former_kinds[k] == Kind::held) state_.bodies.holds.erase(ids[k].slot);
+        Kind& kind = state_.bodies.kind[indices[k]];
+        if (rests(kind)) kind = Kind::free;
     }
 }
 
@@ -392,6 +392,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         remove_body(state_.bodies, index);
         if (index < size()) placement_.note(index, index);
     }
+    drop_stale_contacts(state_.bodies);
 }
 
 template <class Real>
@@ -429,7 +430,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
         throw Error(ErrorCode::out_of_range, field, "the velocity does not fit the world's precision", k);
     }
     for (const Index i : indices) {
-        release(bodies, i);
+        let_go(bodies, i);
         islands_.vicinity().disturb(i);
     }
 }

@@ -157,16 +157,23 @@ template <class Real>
 double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     const std::uint32_t windows =
         std::max(setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
+    const Pieces pieces = pile_.pieces_of(dt);
+    pile_.begin_step();
     Progress progress;
-    for (std::uint32_t k = 0; k < windows; ++k) {
-        const double to = k + 1 == windows ? dt : dt * (static_cast<double>(k + 1) / windows);
-        // A window ends before its time when it is worth building the lists of neighbours anew.
-        do {
-            progress = resolve_window(census, {progress.reached, to, dt});
-            ++report_.windows;
-        } while (progress.reached < to && !progress.work_cap_reached && !progress.edge_reached);
-        if (progress.work_cap_reached || progress.edge_reached) break;
+    bool goes_on = true;
+    while (goes_on && progress.reached < dt) {
+        Window piece{.from = progress.reached, .to = dt, .pieces = pieces, .piece_end = dt};
+        if (pile_.is_active()) {
+            piece.piece_end = piece.to = pieces.end_after(piece.from);
+            piece.begins_piece = true;
+            pile_.begin_piece(piece.from, piece.to);
+        }
+        progress = resolve_piece(census, piece, windows);
+        pile_.end_piece(progress.reached);
+        for (const Index body : pile_.released()) islands_.vicinity().disturb(body);
+        goes_on = !progress.work_cap_reached && !progress.edge_reached;
     }
+    pile_.end_step();
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
     report_solvers();
@@ -174,9 +181,32 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 }
 
 template <class Real>
+Progress Engine<Real>::resolve_piece(const Census& census, const Window& all, std::uint32_t windows) {
+    const double dt = all.step_end();
+    const double share = windows * ((all.to - all.from) / dt);
+    const auto count = static_cast<std::uint32_t>(std::max(1.0, std::ceil(share * (1 - 1e-9))));
+    Progress progress{.reached = all.from, .until = all.to};
+    double end = all.to;
+    for (std::uint32_t k = 0; k < count && progress.reached < end; ++k) {
+        Window window = all;
+        window.to = k + 1 == count ? all.to : all.from + (all.to - all.from) * (static_cast<double>(k + 1) / count);
+        // A window ends before its time when it is worth building the lists of neighbours anew, or in a pile's piece.
+        do {
+            window.from = progress.reached;
+            progress = resolve_window(census, window);
+            window.begins_piece = false;
+            if (progress.until < window.to) window.to = end = progress.until;
+            ++report_.windows;
+        } while (progress.reached < window.to && !progress.work_cap_reached && !progress.edge_reached);
+        if (progress.work_cap_reached || progress.edge_reached) break;
+    }
+    return progress;
+}
+
+template <class Real>
 Progress Engine<Real>::resolve_window(const Census& census, const Window& window) {
     const std::uint64_t work_cap = setting_.options.work_cap;
-    if (setting_.options.serial_reference) return serial_.resolve(census, window.from, window.to, work_cap, outcome_);
+    if (setting_.options.serial_reference) return serial_.resolve(census, window, work_cap, outcome_);
     return islands_.resolve(census, window, has_kicks(), work_cap, outcome_);
 }
 

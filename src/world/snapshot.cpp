@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 4;
+constexpr std::uint32_t snapshot_version = 5;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -150,6 +150,11 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, ContactForce& force) {
+    archive(force.a, force.code, force.normal, force.friction);
+}
+
+template <class Archive>
 void transfer(Archive& archive, Books& books) {
     archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.outer_impulse);
 }
@@ -232,8 +237,8 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.recent_flights,
-            state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
+            b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
 
@@ -270,14 +275,16 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     transfer(reader, state_.bodies);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
+    const auto& kinds = state_.bodies.kind;
+    state_.bodies.newly_piled = std::find(kinds.begin(), kinds.end(), Kind::piled) != kinds.end();
 }
 
 /// A checksum finds accidents; whoever writes a right one may still have written nonsense.
 template <class Real>
 void Engine<Real>::check_loaded() const {
     const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && flights_are_sound() &&
-                       holds_are_sound() && attractors_are_sound() && clock_.is_sound() && last_start_ >= 0 &&
-                       last_step_ >= 0;
+                       holds_are_sound() && contacts_are_sound() && attractors_are_sound() && clock_.is_sound() &&
+                       last_start_ >= 0 && last_step_ >= 0;
     if (!sound) refuse("contradicts itself");
 }
 
@@ -324,7 +331,7 @@ bool Engine<Real>::bodies_are_sound() const {
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
         const bool fixed = b.kind[i] == Kind::fixed;
-        if (b.kind[i] > Kind::held || !(mass > 0) || std::isinf(mass) != fixed) return false;
+        if (b.kind[i] > Kind::piled || !(mass > 0) || std::isinf(mass) != fixed) return false;
         if (fixed && velocity_of(m) != Vec3{}) return false;
         if ((b.kind[i] == Kind::held) != b.holds.contains(b.slot[i])) return false;
     }
@@ -361,6 +368,18 @@ bool Engine<Real>::holds_are_sound() const {
 }
 
 template <class Real>
+bool Engine<Real>::contacts_are_sound() const {
+    const Bodies<Real>& b = state_.bodies;
+    const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
+    return std::all_of(b.contacts.begin(), b.contacts.end(), [&](const ContactForce& c) {
+        check_not_negative(c.normal, "contact");
+        check_finite(c.friction, "contact");
+        const bool is_wall = (c.code & Support::wall_bit) != 0;
+        return exists(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : exists(c.code));
+    });
+}
+
+template <class Real>
 bool Engine<Real>::attractors_are_sound() const {
     for (const Attractor& a : attractors_) {
         check_finite(a.strength, "attractor.strength");
@@ -380,8 +399,13 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
+        if (state_.bodies.kind[i] == Kind::piled) hasher(Kind::piled);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
+    }
+    for (const ContactForce& c : state_.bodies.contacts) {
+        hasher(c.a, c.code, c.normal);
+        hasher.vector(c.friction);
     }
     for (const auto& [slot, flight] : state_.bodies.recent_flights) {
         hasher(slot, flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);

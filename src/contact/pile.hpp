@@ -1,0 +1,176 @@
+/// \file
+/// Piles: bodies that lean on others that move, and the forces that keep them apart.
+///
+/// A step with piled bodies is cut into *pieces*. At the start of each, gravity and the contacts set the velocities of
+/// all piled bodies, which then move straight, and impacts run over the piece. Contacts are soft constraints, solved
+/// once a piece with the forces of the piece before as a start: temporal Gauss-Seidel, Macklin et al., "Small Steps in
+/// Physics Simulation", Symposium on Computer Animation 2019. A pass without softness at the end of each piece takes
+/// out of the velocities what the soft one put in to push overlapping bodies apart: Catto, "Solver2D" (box2d.org,
+/// 2024).
+#pragma once
+
+#include "space/neighbours.hpp"
+#include "space/state.hpp"
+#include "space/ticks.hpp"
+#include "space/window.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace carom::core {
+
+template <class Real>
+class Pile {
+public:
+    explicit Pile(State<Real>& state) : state_(state) {}
+
+    void use(Executor& executor) { executor_ = &executor; }
+
+    /// How a step of `duration` (s) is cut as long as bodies are piled: a function of the forces of their contacts.
+    [[nodiscard]] Pieces pieces_of(double duration) const;
+    /// Start of a step: bodies may have come, gone, or changed places in memory.
+    void begin_step();
+    /// Whether bodies are piled: to be asked between pieces.
+    [[nodiscard]] bool is_active() const { return !leaners_.empty() || state_.bodies.newly_piled; }
+    /// Start of a piece [from, to] (s since the start of the step): sets the velocities of the piled bodies.
+    void begin_piece(double from, double to);
+    /// End of it, or of what a step that ends early did of it. Bodies that nothing supports any more are free again.
+    void end_piece(double at);
+    /// End of a step: leaves the forces in the state.
+    void end_step();
+
+    /// Bodies that the last end_piece() let go.
+    [[nodiscard]] std::span<const Index> released() const { return released_; }
+
+private:
+    static constexpr std::uint32_t nobody = 0xffffffffU;
+    static constexpr std::size_t leaner_grain = 1024;
+    static constexpr std::size_t contact_grain = 1024;
+    static constexpr std::size_t column_grain = 4;
+    static constexpr std::size_t colours = 4;
+
+    /// A piled body while it is worked on.
+    struct Leaner {
+        Index body = no_index;
+        bool is_supported = false;
+        double inverse_mass = 0; ///< 1/kg
+        Vec3 v{};                ///< m/s
+        Vec3 before{};           ///< m/s, when the passes began
+    };
+    /// What a leaner touches, or may while the list lasts.
+    struct Contact {
+        std::uint32_t a = 0;      ///< a leaner; of two, the one with the lower slot
+        std::uint32_t b = nobody; ///< the other leaner, or nobody
+        std::uint32_t slot = 0;   ///< of a
+        std::uint32_t code = 0;   ///< as in ContactForce
+        double mass = 0;          ///< kg, reduced
+        double friction = 0;      ///< Coulomb's mu
+        double restitution = 0;
+        bool is_open = false;    ///< left to the impacts: the two approach too fast
+        bool carries = false;    ///< there was a force in this piece
+        double gap = 0;          ///< m, at the start of the passes
+        Vec3 normal{};           ///< unit vector from a to the other
+        double impulse = 0;      ///< N s in a piece, pushes them apart
+        Vec3 friction_impulse{}; ///< N s in a piece, on the other
+    };
+    /// Where a leaner was when the contacts were listed, in cells that no contact is longer than.
+    struct Cell {
+        std::array<std::uint32_t, 2> across{};
+        std::uint32_t height = 0; ///< against gravity
+    };
+    struct CellAxis {
+        static constexpr std::uint32_t most = 1U << 29U; ///< cells
+        int axis = 0;
+        std::int64_t start = 0; ///< units
+        std::uint64_t edge = 1; ///< units
+        std::uint32_t turn = 0; ///< cells around a periodic axis, else 0
+        [[nodiscard]] std::uint32_t cell_of(const Int3& x) const {
+            const std::uint64_t offset =
+                static_cast<std::uint64_t>(component(x, axis)) - static_cast<std::uint64_t>(start);
+            const auto cell = static_cast<std::uint32_t>(offset / edge);
+            return turn == 0 ? cell : std::min(cell, turn - 1);
+        }
+    };
+    /// The order in which contacts are solved: a function of the state alone.
+    struct Order {
+        std::uint64_t column = 0; ///< its colour first
+        std::uint32_t height = 0;
+        std::uint32_t contact = 0;
+        std::uint64_t ids = 0;
+        friend bool operator<(const Order& x, const Order& y) {
+            return std::tie(x.column, x.height, x.ids) < std::tie(y.column, y.height, y.ids);
+        }
+    };
+    /// Contacts above each other: solved one after the other, upwards. Those of one colour have no bodies in common.
+    struct Column {
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
+    };
+    /// How a pass turns overlap and approach into impulses; all of the approach and none of the overlap by default.
+    struct Softness {
+        double rate = 0;    ///< 1/s, at which overlap is undone
+        double mass = 1;    ///< part of the effective mass
+        double impulse = 0; ///< part of the impulse so far that is taken back
+    };
+
+    void start_list(double from);
+    void gather();
+    void advance_all(double at);
+    void find_contacts(double margin);
+    void add_pair(std::vector<Contact>& found, Index a, Index b, double margin) const;
+    void add_walls(std::vector<Contact>& found, std::uint32_t a, double margin) const;
+    [[nodiscard]] double reduced_mass(Index a, Index b) const;
+    void assign_cells(double margin);
+    [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
+    [[nodiscard]] Order order_of(std::uint32_t number) const;
+    void sort_contacts();
+    void recall_forces();
+    void keep_forces();
+
+    void measure();
+    void measure(Contact& contact) const;
+    [[nodiscard]] double strike_of(const Contact& contact) const;
+    void enter_loads();
+    void take_velocities(const Vec3& change);
+    void put_velocities();
+    template <class F>
+    void for_each_contact(F&& f);
+    void warm_up();
+    void pass(const Softness& softness);
+    [[nodiscard]] double solve(Contact& contact, const Softness& softness);
+    void push(const Contact& contact, const Vec3& impulse);
+    void release_unsupported();
+
+    State<Real>& state_;
+    Executor* executor_ = nullptr;
+
+    // The list, which lasts for some pieces.
+    std::vector<Leaner> leaners_;
+    std::vector<std::uint32_t> places_; ///< per body: in leaners_, or nobody
+    std::vector<Index> statics_;
+    std::vector<Contact> contacts_; ///< in the order in which they are solved
+    std::vector<Column> columns_;
+    std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_
+    double listed_until_ = 0;                          ///< s since the start of the step
+
+    // The piece.
+    double piece_ = 0;         ///< s
+    double friction_loss_ = 0; ///< J, in the last pass
+    std::vector<Index> released_;
+
+    // Room to make the list in.
+    Ticks ticks_;
+    Neighbours neighbours_;
+    std::array<std::vector<Contact>, most_parts> found_;
+    std::vector<Cell> cells_; ///< per leaner
+    std::array<std::uint32_t, 2> turns_{};
+    std::vector<Order> orders_;
+    std::vector<Contact> sorted_;
+    std::vector<std::uint32_t> first_forces_;
+    std::vector<std::uint32_t> force_order_;
+};
+
+} // namespace carom::core
