@@ -23,7 +23,10 @@ constexpr double damping_ratio = 10;
 constexpr double least_rate = 480;
 /// Overlap, in diameters, at which a contact is to carry its load.
 constexpr double wanted_overlap = 0.01;
-constexpr std::uint32_t most_pieces = 1U << 20U;
+/// Pieces a second for a body on one that is so many times lighter; and the most of them.
+constexpr double rate_per_ratio = 2;
+constexpr double most_rate = 1e5;
+constexpr double most_pieces = 1e6;
 
 /// s that contacts are listed for.
 constexpr double list_life = 1.0 / 60;
@@ -40,27 +43,34 @@ std::uint32_t lower_cell(std::uint32_t a, std::uint32_t b, std::uint32_t turn) {
 // Pieces
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// A contact under the load F swings at w where it overlaps by F / (m w^2): the larger the load, the shorter the
-/// pieces.
+/// A contact under the load F overlaps by F / (m w^2) if it swings at w: the larger the load, the shorter the pieces. A
+/// heavy body M on a light one m gives way to one pass of a piece h by h^2 M g / m, and its swinging ends in 2 h M / m.
 template <class Real>
 Pieces Pile<Real>::pieces_of(double duration) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    double most = 0; // 1/s^2
-    for (const ContactForce& force : bodies.contacts) {
-        const Index a = bodies.slots[force.a];
-        double compliance = 1 / static_cast<double>(bodies.mass[a]);
-        auto reach = 2 * static_cast<double>(bodies.motion[a].radius);
+    double most_stretched = 0; // 1/s^2
+    double most_heavy = 0;     // mass of an upper body, in masses of the lower one
+    for (const ContactForce& force : state_.bodies.contacts) {
+        const Index a = state_.bodies.slots[force.a];
+        const auto mass = static_cast<double>(state_.bodies.mass[a]);
+        auto reach = 2 * static_cast<double>(state_.bodies.motion[a].radius);
+        double compliance = 1 / mass;
         if ((force.code & Support::wall_bit) == 0) {
-            const Index b = bodies.slots[force.code];
-            compliance += 1 / static_cast<double>(bodies.mass[b]);
-            reach = static_cast<double>(bodies.motion[a].radius) + static_cast<double>(bodies.motion[b].radius);
+            const Index b = state_.bodies.slots[force.code];
+            const auto other = static_cast<double>(state_.bodies.mass[b]);
+            compliance += 1 / other;
+            reach = static_cast<double>(state_.bodies.motion[a].radius) +
+                    static_cast<double>(state_.bodies.motion[b].radius);
+            const Vec3 delta = separation(state_, state_.bodies.motion[a], state_.bodies.motion[b], {}, {});
+            const bool is_a_above = dot(delta, state_.laws.gravity) > 0;
+            most_heavy = std::max(most_heavy, is_a_above ? mass / other : other / mass);
         }
-        if (reach > 0) most = std::max(most, force.normal * compliance / (wanted_overlap * reach));
+        if (reach > 0) most_stretched = std::max(most_stretched, force.normal * compliance / (wanted_overlap * reach));
     }
-    const double rate = std::max(least_rate, std::sqrt(most) / (2 * std::numbers::pi * stiffness));
+    const double rate = std::max({least_rate, std::sqrt(most_stretched) / (2 * std::numbers::pi * stiffness),
+                                  std::min(rate_per_ratio * most_heavy, most_rate)});
     constexpr double rounding = 1 - 1e-9;
-    return {duration, static_cast<std::uint32_t>(
-                          std::ceil(std::clamp(duration * rate * rounding, 1.0, static_cast<double>(most_pieces))))};
+    const double pieces = std::clamp(duration * rate * rounding, 1.0, most_pieces);
+    return {duration, static_cast<std::uint32_t>(std::ceil(pieces))};
 }
 
 template <class Real>
@@ -103,9 +113,13 @@ void Pile<Real>::end_piece(double at) {
 }
 
 template <class Real>
-void Pile<Real>::end_step() {
-    state_.bodies.loads.clear();
+void Pile<Real>::end_step(double reached) {
     keep_forces();
+    if (state_.bodies.newly_piled) {
+        gather();
+        advance_all(reached);
+    }
+    state_.bodies.loads.clear();
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -39,8 +39,8 @@ public:
     void begin_piece(double from, double to);
     /// End of it, or of what a step that ends early did of it. Bodies that nothing supports any more are free again.
     void end_piece(double at);
-    /// End of a step: leaves the forces in the state.
-    void end_step();
+    /// End of a step that got to `reached`: brings all piled bodies there, and leaves the forces in the state.
+    void end_step(double reached);
 
     /// Bodies that the last end_piece() let go.
     [[nodiscard]] std::span<const Index> released() const { return released_; }

@@ -245,6 +245,9 @@ void settle_holds(State<Real>& state) {
             const double speed = length(along);
             const double settled = std::sqrt(std::max(0.0, length_squared(v) + gain));
             if (speed > 0) set_and_book(state, body, along * (settled / speed), entry);
+            // A body that its contacts in a pile pressed into the support comes out of it at more than its speed pays.
+            const double given = length_squared(velocity_of(motion)) - length_squared(v) - gain;
+            entry.lost_to_restitution -= 0.5 * static_cast<double>(state.bodies.mass[body]) * given;
         }
         state.books.add(entry);
     }

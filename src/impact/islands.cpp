@@ -42,15 +42,16 @@ Progress IslandSolver<Real>::resolve(const Census& census, Window window, bool k
         for (const auto& workshop : workshops_) impacts += workshop->log.size();
         given_up_ = outcome.all_impacts() + impacts > work_cap;
     }
-    const double end = given_up_ ? window.to : end_of_window();
-    if (!given_up_ && end == window.to) commit(outcome);
+    const double until = end_of_piece();
+    const bool is_done = !given_up_ && until >= window.to;
+    if (is_done) commit(outcome);
     clear_window();
     costs_.seconds.impacts += watch.lap();
     if (given_up_) return resolve_serially(census, work_cap, outcome);
-    if (end == window.to) return {.reached = end, .until = end};
+    if (is_done) return {.reached = window.to, .until = until};
     // Once more, up to where bodies that came to lean on each other get new velocities.
     vicinity_.forget();
-    return {.reached = window.from, .until = end};
+    return {.reached = window.from, .until = until};
 }
 
 /// A window that ends early, or may: where exactly, the one queue knows.
@@ -419,11 +420,11 @@ void IslandSolver<Real>::join_group(std::span<const std::uint32_t> group) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
-double IslandSolver<Real>::end_of_window() const {
-    double end = window_.to;
+double IslandSolver<Real>::end_of_piece() const {
+    double end = window_.piece_end;
     for (const auto& workshop : workshops_) {
         for (const Occurrence& occurrence : workshop->log) {
-            if (occurrence.piles_up) end = std::min(end, window_.end_for_pile(occurrence.impact.offset));
+            if (occurrence.piles_up) end = std::min(end, window_.pieces.end_after(occurrence.impact.offset));
         }
     }
     return end;

@@ -89,7 +89,7 @@ private:
     std::uint32_t island_root(std::uint32_t id);
     void join_group(std::span<const std::uint32_t> group);
 
-    [[nodiscard]] double end_of_window() const;
+    [[nodiscard]] double end_of_piece() const;
     void commit(Outcome& outcome);
     void write_back();
     void write_holds_back();

@@ -290,11 +290,12 @@ bool meet_lying(State<Real>& state, Index a, Index b, const Meeting& meeting, co
     return true;
 }
 
-/// Whether two bodies that move come to rest against each other. Free flight needs no support: one of them has one.
+/// Whether two bodies that move come to rest against each other: something carries one of them, against uniform
+/// gravity.
 template <class Real>
 bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& n, double e) {
     const Bodies<Real>& bodies = state.bodies;
-    if (!rests(bodies.kind[a]) && !rests(bodies.kind[b])) return false;
+    if (state.laws.gravity == Vec3{} || (!rests(bodies.kind[a]) && !rests(bodies.kind[b]))) return false;
     if (bodies.kind[a] == Kind::piled && bodies.kind[b] == Kind::piled) return false;
     const Vec3 pull = pull_on(state, b) - pull_on(state, a);
     const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);

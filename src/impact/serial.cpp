@@ -89,33 +89,34 @@ void SerialSolver<Real>::predict_first(double from, double to) {
 
 template <class Real>
 Progress SerialSolver<Real>::run_queue(const Window& window, std::uint64_t work_cap, Outcome& outcome) {
-    double to = window.to;
-    while (!queue_.empty() && queue_.top().time <= to) {
+    double until = window.piece_end;
+    const auto end = [&] { return std::min(window.to, until); };
+    while (!queue_.empty() && queue_.top().time <= end()) {
         const Event event = queue_.top();
         if (queue_.outdated(event)) {
             queue_.pop();
             continue;
         }
         if (work_cap != 0 && outcome.all_impacts() >= work_cap) {
-            return {.reached = event.time, .until = to, .work_cap_reached = true};
+            return {.reached = event.time, .until = until, .work_cap_reached = true};
         }
-        if (neighbours_.crowded()) return {.reached = event.time, .until = to};
+        if (neighbours_.crowded()) return {.reached = event.time, .until = until};
         queue_.pop();
         prefetch_next();
         Occurrence occurrence;
         execute(state_, event, occurrence);
         state_.books.add(occurrence.entry);
         outcome.add(occurrence);
-        if (occurrence.piles_up) to = std::min(to, window.end_for_pile(event.time));
-        bool inside = register_motion(event.a, event.time, to);
-        if (!event.at_wall()) inside = register_motion(event.b, event.time, to) && inside;
-        if (!inside) return {.reached = event.time, .until = to, .edge_reached = true};
-        predict_again(event.a, no_index, event.time, to);
+        if (occurrence.piles_up) until = std::min(until, window.pieces.end_after(event.time));
+        bool inside = register_motion(event.a, event.time, end());
+        if (!event.at_wall()) inside = register_motion(event.b, event.time, end()) && inside;
+        if (!inside) return {.reached = event.time, .until = until, .edge_reached = true};
+        predict_again(event.a, no_index, event.time, end());
         if (event.at_wall()) continue;
         const bool seen_from_a = state_.bodies.kind[event.a] != Kind::fixed;
-        predict_again(event.b, seen_from_a ? event.a : no_index, event.time, to);
+        predict_again(event.b, seen_from_a ? event.a : no_index, event.time, end());
     }
-    return {.reached = to, .until = to};
+    return {.reached = end(), .until = until};
 }
 
 /// Successive impacts are anywhere in space, so in memory: asking for the next ones' bodies while this one is worked on

@@ -23,7 +23,7 @@ struct SolverCosts {
 /// How far one window got.
 struct Progress {
     double reached = 0; ///< s since the start of the step
-    double until = 0; ///< where the window is to end: earlier than it was meant to if bodies came to lean on each other
+    double until = 0;   ///< where the piece ends: earlier than it was meant to if bodies came to lean on each other
     bool work_cap_reached = false;
     bool edge_reached = false;
 };

@@ -34,8 +34,6 @@ struct Window {
     bool begins_piece = false; ///< piled bodies have just got new velocities
 
     [[nodiscard]] double step_end() const { return pieces.duration; }
-    /// Where a window is to end in which, at `time`, the first bodies come to lean on each other.
-    [[nodiscard]] double end_for_pile(double time) const { return std::min(to, pieces.end_after(time)); }
 };
 
 } // namespace carom::core

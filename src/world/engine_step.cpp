@@ -173,7 +173,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
         for (const Index body : pile_.released()) islands_.vicinity().disturb(body);
         goes_on = !progress.work_cap_reached && !progress.edge_reached;
     }
-    pile_.end_step();
+    pile_.end_step(progress.reached);
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
     report_solvers();
@@ -189,13 +189,15 @@ Progress Engine<Real>::resolve_piece(const Census& census, const Window& all, st
     double end = all.to;
     for (std::uint32_t k = 0; k < count && progress.reached < end; ++k) {
         Window window = all;
-        window.to = k + 1 == count ? all.to : all.from + (all.to - all.from) * (static_cast<double>(k + 1) / count);
+        const double share_so_far = static_cast<double>(k + 1) / count;
+        window.to = std::min(end, k + 1 == count ? all.to : all.from + (all.to - all.from) * share_so_far);
         // A window ends before its time when it is worth building the lists of neighbours anew, or in a pile's piece.
         do {
             window.from = progress.reached;
             progress = resolve_window(census, window);
             window.begins_piece = false;
-            if (progress.until < window.to) window.to = end = progress.until;
+            end = std::min(end, progress.until);
+            window.to = std::min(window.to, end);
             ++report_.windows;
         } while (progress.reached < window.to && !progress.work_cap_reached && !progress.edge_reached);
         if (progress.work_cap_reached || progress.edge_reached) break;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -314,13 +316,14 @@ void expect_bounded(const Lean& lean, double e, double mu, double mass) {
     for (const Vec3& x : lean.lying) world.add({.position = x, .restitution = e, .friction = mu});
     world.add({.position = lean.leaning, .mass = mass, .restitution = e, .friction = mu});
     const double start = world.energy().total();
-    double before = start;
+    double lowest = start;
+    double rise = 0;
     double overlap = 0;
     while (world.time() < 0.5) {
         const carom::StepReport& report = world.step(dt);
         ASSERT_LE(static_cast<double>(report.impacts + report.face_impacts), most) << world.time();
-        ASSERT_LE(world.energy().total(), before + 1e-9 * start) << world.time();
-        before = world.energy().total();
+        rise = std::max(rise, world.energy().total() - lowest);
+        lowest = std::min(lowest, world.energy().total());
         const std::vector<BodyId> ids = world.ids();
         for (std::size_t k = 0; k < ids.size(); ++k) {
             const Vec3 x = world.get(ids[k]).position;
@@ -329,8 +332,15 @@ void expect_bounded(const Lean& lean, double e, double mu, double mass) {
         }
     }
     const carom::Ledger& ledger = world.ledger();
-    EXPECT_NEAR(before + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-6 * start);
-    EXPECT_LT(overlap, 1e-6);
+    EXPECT_NEAR(world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-9 * start);
+    // A step has as many pieces as keep contacts from giving way to their loads by more; but for the step in which a
+    // body comes to lean, with g rest_time at most.
+    EXPECT_LT(overlap, 0.01 + (g * options.rest_time + g * dt) * dt);
+    // Each contact is a spring, which swings at a quarter of the rate of the pieces, and gives back no more than it
+    // took.
+    const double swing = 2 * std::numbers::pi * 0.25 * std::max(480.0, 2 * mass);
+    const double spring = 0.5 * std::min(mass, 1.0) * swing * swing * overlap * overlap;
+    EXPECT_LE(rise, static_cast<double>(lean.lying.size() + 1) * spring + 1e-9 * start);
 }
 
 TEST(Rest, LeaningOnABodyThatLiesIsBoundedWork) {
@@ -358,12 +368,12 @@ TEST(Rest, AHeavyBodyDoesNotSinkIntoALightOne) {
             world.add({.position = {0, 0, 0.5}, .restitution = 0});
             const BodyId heavy = world.add({.position = {0, 0, 2}, .mass = 1000, .restitution = 0});
             run(world, 1);
-            // e = 0 ends the fall at the first impact. Contacts take t_c, in which they give way by g t_c^2 / 2, and
-            // lose nothing below 8 g t_c.
-            const double speed = 8 * g * options.collapse_time;
-            EXPECT_GE(world.get(heavy).position.z, 1.5 - 1e-9);
-            EXPECT_LE(world.get(heavy).position.z, 1.5 + speed * speed / (2 * g));
-            EXPECT_LE(length(world.get(heavy).velocity), speed);
+            // Contacts hold a body M on m with pieces of h = m / (2 M) s, and give way to it by no more than h^2 M g /
+            // m.
+            EXPECT_GE(world.get(heavy).position.z, 1.5 - 1000 * g / (2000.0 * 2000.0));
+            EXPECT_LE(world.get(heavy).position.z, 1.5);
+            EXPECT_LE(length(world.get(heavy).velocity), 1e-3);
+            EXPECT_TRUE(world.held(heavy));
         }
     }
 }
