@@ -21,7 +21,8 @@ plt.rcParams.update({
 INK = "#171a20"
 # Colours that colour-blind readers tell apart; markers and labels say the same once more.
 WORKLOADS = {"gas": ("#d1570b", "o"), "dense_gas": ("#1c6fbf", "s"), "cooling": ("#23806a", "^"),
-             "polydisperse": ("#8a4fa3", "D"), "bullets": ("#a8860b", "v"), "open_space": ("#5b6472", "P")}
+             "polydisperse": ("#8a4fa3", "D"), "bullets": ("#a8860b", "v"), "open_space": ("#5b6472", "P"),
+             "pile": ("#b0307a", "X")}
 PEERS = {"Bullet": ("#1c6fbf", "s"), "ODE": ("#8a4fa3", "D")}
 BYTES_PER_BODY = 100  # about what a step of gas must move at least
 

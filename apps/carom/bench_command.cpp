@@ -76,7 +76,7 @@ Repeat measure(const Plan& plan, unsigned threads) {
             result.bytes_per_body = bytes_per_body(memory_before, world.size());
         }
     }
-    result.contacts = world.report().held;
+    result.contacts = world.report().contacts;
     result.end = scene::read_books(world);
     result.hash = world.hash();
     return result;

@@ -90,7 +90,7 @@ void Simulation::advance() {
     if (scene_.outputs.record_impacts) scene::append_impacts(progress_.impact_log, step, world_.impacts());
     progress_.steps = step;
     progress_.last_step_short = length < schedule_.dt;
-    progress_.contacts = world_.report().held;
+    progress_.contacts = world_.report().contacts;
     if (totals_.steps == steps_before_memory) measure_memory_once();
     if (overlap_search_) {
         progress_.largest_overlap = std::max(progress_.largest_overlap, overlap_search_->find(world_).largest);

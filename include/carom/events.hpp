@@ -41,10 +41,12 @@ struct StepReport {
     std::uint64_t face_impacts = 0;   ///< body with a face of the region
     std::uint64_t predictions = 0;    ///< times of impact computed
     std::uint64_t tc_conversions = 0; ///< impacts made elastic by the TC rule against inelastic collapse
-    std::uint64_t held = 0;           ///< bodies at rest against a face or a static body, at the end
-    std::uint32_t windows = 0;        ///< pieces the step was cut into
-    std::uint64_t candidates = 0;     ///< pairs of bodies that a window's first look could not tell apart
-    std::uint64_t islands = 0;        ///< groups of bodies that impacts coupled, over all windows
+    std::uint64_t held = 0;           ///< bodies that something carries, at the end: see World::held()
+    std::uint64_t contacts = 0;       ///< what carries them: pairs that touch, or a body and a face, at the end
+    std::uint32_t pieces = 0;     ///< that contacts between moving bodies had the step cut into; 0 if there were none
+    std::uint32_t windows = 0;    ///< that the impacts had it cut into
+    std::uint64_t candidates = 0; ///< pairs of bodies that a window's first look could not tell apart
+    std::uint64_t islands = 0;    ///< groups of bodies that impacts coupled, over all windows
     std::uint64_t largest_island = 0; ///< bodies
     std::uint64_t rounds = 0;         ///< of islands being resolved and compared, over all windows
     std::uint64_t merges = 0;         ///< islands that were merged with another, and run again

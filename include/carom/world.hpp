@@ -104,7 +104,7 @@ public:
     void change_velocities(std::span<const BodyId> ids, std::span<const Vec3> changes);
 
     [[nodiscard]] bool contains(BodyId id) const noexcept;
-    /// True while the body rests on a face of the region or a static body.
+    /// True while the body rests on a face of the region or a static body, or leans on others in a pile.
     [[nodiscard]] bool held(BodyId id) const;
     /// Bodies, static ones included.
     [[nodiscard]] std::size_t size() const noexcept;

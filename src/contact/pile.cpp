@@ -1,7 +1,5 @@
 #include "contact/pile.hpp"
 
-#include "contact/rest.hpp"
-
 #include <carom/collision.hpp>
 
 #include <algorithm>
@@ -135,10 +133,10 @@ void Pile<Real>::start_list(double from) {
     listed_until_ = from + list_life;
     // In that time, pairs that are no impacts approach by no more than this.
     const double gravity = length(state_.laws.gravity);
-    const double strike = 2 * resting_speed(0, gravity, state_.laws.rest_time);
-    const double margin = (strike + gravity * list_life) * list_life + 2 * state_.resolution.metres;
-    find_contacts(margin);
-    assign_cells(margin);
+    const double strike = 2 * told_speed();
+    margin_ = (strike + gravity * list_life) * list_life + 4 * state_.resolution.metres;
+    find_contacts();
+    assign_cells();
     sort_contacts();
     recall_forces();
     measure();
@@ -178,9 +176,9 @@ void Pile<Real>::advance_all(double at) {
     state_.books.held_mass_time.add(mass_time[0].value());
 }
 
-/// Finds all that the piled bodies are nearer to than `margin` (m).
+/// Finds all that the piled bodies are nearer to than the margin.
 template <class Real>
-void Pile<Real>::find_contacts(double margin) {
+void Pile<Real>::find_contacts() {
     const Bodies<Real>& bodies = state_.bodies;
     CensusTaker taker;
     for (const Leaner& l : leaners_) taker.count(bodies.motion[l.body], Kind::piled);
@@ -193,14 +191,13 @@ void Pile<Real>::find_contacts(double margin) {
         *executor_, leaners_.size() + statics_.size(), ticks_.axes(census),
         [&](Index k) {
             const Motion<Real>& m = bodies.motion[body_at(k)];
-            return ticks_.ball(m.x, {}, static_cast<double>(m.radius) + margin / 2);
+            return ticks_.ball(m.x, {}, static_cast<double>(m.radius) + margin_ / 2);
         },
         [leaning](Index k) { return k < leaning; });
     for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         const auto place = static_cast<Index>(k);
-        neighbours_.for_each(place,
-                             [&](Index other) { add_pair(found_[part], body_at(place), body_at(other), margin); });
-        add_walls(found_[part], place, margin);
+        neighbours_.for_each(place, [&](Index other) { add_pair(found_[part], body_at(place), body_at(other)); });
+        add_walls(found_[part], place);
     });
     for (std::vector<Contact>& found : found_) {
         contacts_.insert(contacts_.end(), found.begin(), found.end());
@@ -209,7 +206,7 @@ void Pile<Real>::find_contacts(double margin) {
 }
 
 template <class Real>
-void Pile<Real>::add_pair(std::vector<Contact>& found, Index a, Index b, double margin) const {
+void Pile<Real>::add_pair(std::vector<Contact>& found, Index a, Index b) const {
     const Bodies<Real>& bodies = state_.bodies;
     const bool is_static = bodies.kind[b] == Kind::fixed;
     // Of two leaners both have the other in their lists.
@@ -217,7 +214,7 @@ void Pile<Real>::add_pair(std::vector<Contact>& found, Index a, Index b, double 
     const Motion<Real>& m_a = bodies.motion[a];
     const Motion<Real>& m_b = bodies.motion[b];
     const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
-    if (length(separation(state_, m_a, m_b, {}, {})) > touching + margin) return;
+    if (length(separation(state_, m_a, m_b, {}, {})) > touching + margin_) return;
     const Encounter encounter = encounter_of(state_, a, b);
     found.push_back({.a = places_[a],
                      .b = is_static ? nobody : places_[b],
@@ -235,14 +232,14 @@ double Pile<Real>::reduced_mass(Index a, Index b) const {
 }
 
 template <class Real>
-void Pile<Real>::add_walls(std::vector<Contact>& found, std::uint32_t a, double margin) const {
+void Pile<Real>::add_walls(std::vector<Contact>& found, std::uint32_t a) const {
     const Index body = leaners_[a].body;
     const Motion<Real>& m = state_.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
-    if (!state_.bounds.may_touch(m.x, radius + margin, state_.resolution)) return;
+    if (!state_.bounds.may_touch(m.x, radius + margin_, state_.resolution)) return;
     for (std::uint32_t k = 0; k < state_.bounds.walls().size(); ++k) {
         const Bounds::Wall& wall = state_.bounds.walls()[k];
-        if (state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) > margin) continue;
+        if (state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) > margin_) continue;
         const Encounter encounter = encounter_of(state_, body, wall);
         found.push_back({.a = a,
                          .slot = state_.bodies.slot[body],
@@ -255,7 +252,7 @@ void Pile<Real>::add_walls(std::vector<Contact>& found, std::uint32_t a, double 
 
 /// Puts every leaner into a cell with edges that no contact is longer than.
 template <class Real>
-void Pile<Real>::assign_cells(double margin) {
+void Pile<Real>::assign_cells() {
     const Bodies<Real>& bodies = state_.bodies;
     CensusTaker taker;
     double largest = 0;
@@ -264,7 +261,7 @@ void Pile<Real>::assign_cells(double margin) {
         largest = std::max(largest, static_cast<double>(bodies.motion[l.body].radius));
     }
     const Census census = taker.census();
-    const auto edge = static_cast<std::uint64_t>((2 * largest + margin) * state_.resolution.per_metre) + 1;
+    const auto edge = static_cast<std::uint64_t>((2 * largest + margin_) * state_.resolution.per_metre) + 1;
     const Vec3& g = state_.laws.gravity;
     const auto pull = [&g](int axis) { return std::abs(component(g, axis)); };
     const int up = pull(0) > std::max(pull(1), pull(2)) ? 0 : (pull(1) > pull(2) ? 1 : 2);
@@ -400,6 +397,15 @@ double Pile<Real>::strike_of(const Contact& contact) const {
     return striking_speed(contact.restitution, load, state_.laws);
 }
 
+/// Whether the two may strike each other in the piece that has begun.
+template <class Real>
+bool Pile<Real>::may_strike(const Contact& contact) const {
+    const Vec3 other = contact.b == nobody ? Vec3{} : leaners_[contact.b].v;
+    // The normal turns on the way.
+    const double closing = length(leaners_[contact.a].v - other);
+    return closing > strike_of(contact) && 1.001 * closing * piece_ + 2 * state_.resolution.metres >= contact.gap;
+}
+
 /// Takes the bodies' velocities, changed by so much (m/s).
 template <class Real>
 void Pile<Real>::take_velocities(const Vec3& change) {
@@ -517,7 +523,11 @@ void Pile<Real>::push(const Contact& contact, const Vec3& impulse) {
 template <class Real>
 void Pile<Real>::enter_loads() {
     std::vector<Load>& loads = state_.bodies.loads;
-    for (const Leaner& l : leaners_) loads[l.body] = {.pull = (l.v - l.before) / piece_};
+    for (Leaner& l : leaners_) {
+        // An impact may change its speed within the piece.
+        l.way += std::max(length(l.v), told_speed()) * piece_ + state_.resolution.metres;
+        loads[l.body] = {.pull = (l.v - l.before) / piece_, .is_told = l.way <= margin_ / 2};
+    }
     for (const Contact& c : contacts_) {
         const double force = c.impulse / piece_;
         const auto press = [&](const Leaner& l) {

@@ -9,6 +9,7 @@
 /// 2024).
 #pragma once
 
+#include "contact/rest.hpp"
 #include "space/neighbours.hpp"
 #include "space/state.hpp"
 #include "space/ticks.hpp"
@@ -35,12 +36,34 @@ public:
     void begin_step();
     /// Whether bodies are piled: to be asked between pieces.
     [[nodiscard]] bool is_active() const { return !leaners_.empty() || state_.bodies.newly_piled; }
+    /// Bodies, after end_step().
+    [[nodiscard]] std::size_t size() const { return leaners_.size(); }
     /// Start of a piece [from, to] (s since the start of the step): sets the velocities of the piled bodies.
     void begin_piece(double from, double to);
     /// End of it, or of what a step that ends early did of it. Bodies that nothing supports any more are free again.
     void end_piece(double at);
     /// End of a step that got to `reached`: brings all piled bodies there, and leaves the forces in the state.
     void end_step(double reached);
+
+    /// Calls f(a, b) for every pair that may strike each other in the piece, and f(a, no_index) for a body that may
+    /// strike a wall, as far as bodies are told of (see Load) and no faster than told_speed().
+    template <class F>
+    void for_each_strike(F&& f) const {
+        for (const Contact& c : contacts_) {
+            if (!may_strike(c)) continue;
+            const bool is_wall = (c.code & Support::wall_bit) != 0;
+            f(leaners_[c.a].body, is_wall ? no_index : state_.bodies.slots[c.code]);
+        }
+    }
+    /// m/s
+    [[nodiscard]] double told_speed() const { return 0.5 * striking_speed(0, 0, state_.laws); }
+    /// Calls f(body) for the piled bodies that are not told of.
+    template <class F>
+    void for_each_untold(F&& f) const {
+        for (const Leaner& l : leaners_) {
+            if (!state_.bodies.loads[l.body].is_told) f(l.body);
+        }
+    }
 
     /// Bodies that the last end_piece() let go.
     [[nodiscard]] std::span<const Index> released() const { return released_; }
@@ -56,6 +79,7 @@ private:
     struct Leaner {
         Index body = no_index;
         bool is_supported = false;
+        double way = 0;          ///< m that it came at most since it was listed
         double inverse_mass = 0; ///< 1/kg
         Vec3 v{};                ///< m/s
         Vec3 before{};           ///< m/s, when the passes began
@@ -119,11 +143,11 @@ private:
     void start_list(double from);
     void gather();
     void advance_all(double at);
-    void find_contacts(double margin);
-    void add_pair(std::vector<Contact>& found, Index a, Index b, double margin) const;
-    void add_walls(std::vector<Contact>& found, std::uint32_t a, double margin) const;
+    void find_contacts();
+    void add_pair(std::vector<Contact>& found, Index a, Index b) const;
+    void add_walls(std::vector<Contact>& found, std::uint32_t a) const;
     [[nodiscard]] double reduced_mass(Index a, Index b) const;
-    void assign_cells(double margin);
+    void assign_cells();
     [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
     [[nodiscard]] Order order_of(std::uint32_t number) const;
     void sort_contacts();
@@ -133,6 +157,7 @@ private:
     void measure();
     void measure(Contact& contact) const;
     [[nodiscard]] double strike_of(const Contact& contact) const;
+    [[nodiscard]] bool may_strike(const Contact& contact) const;
     void enter_loads();
     void take_velocities(const Vec3& change);
     void put_velocities();
@@ -155,6 +180,7 @@ private:
     std::vector<Column> columns_;
     std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_
     double listed_until_ = 0;                          ///< s since the start of the step
+    double margin_ = 0;                                ///< m, gaps up to this are listed
 
     // The piece.
     double piece_ = 0;         ///< s

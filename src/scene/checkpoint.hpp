@@ -43,7 +43,7 @@ struct RunProgress {
     bool last_step_short = false;  ///< the last one was shortened to end at the time asked for
     Books start;                   ///< at time 0
     double largest_overlap = 0;    ///< over the ends of all steps so far, diameters
-    std::uint64_t contacts = 0;    ///< bodies held at rest at the end of the last step
+    std::uint64_t contacts = 0;    ///< resting ones, at the end of the last step
     std::vector<TimelineRow> rows; ///< those that are due at regular times
     std::string impact_log;        ///< lines of impacts.csv; empty if impacts are not recorded
 };

@@ -24,7 +24,7 @@ TimelineRow timeline_row(const World& world, std::uint64_t step) {
             .momentum = world.momentum(),
             .impacts = ledger.impacts,
             .face_impacts = ledger.face_impacts,
-            .contacts = world.report().held};
+            .contacts = world.report().contacts};
 }
 
 std::string to_csv(std::span<const TimelineRow> rows) {

@@ -23,7 +23,7 @@ struct TimelineRow {
     Vec3 momentum{};                ///< kg m/s
     std::uint64_t impacts = 0;      ///< body with body, since time 0
     std::uint64_t face_impacts = 0; ///< body with a wall, since time 0
-    std::uint64_t contacts = 0;     ///< bodies held at rest
+    std::uint64_t contacts = 0;     ///< resting ones, of bodies with each other, faces and static bodies
 
     friend bool operator==(const TimelineRow&, const TimelineRow&) = default;
 };

@@ -207,8 +207,10 @@ std::size_t find_tracks(const Track* tracks, const TrackScale& scale, const Trac
         const auto least_reach = hn::Min(other.reach, hn::Set(floats, track.reach));
         const auto is_inside = hn::Le(outside, zero);
         const auto tolerance = hn::Set(floats, scale.tolerance * scale.tolerance);
-        const auto parts = hn::And(hn::And(hn::Lt(closing, zero), hn::Gt(least_reach, zero)),
-                                   hn::Gt(closing_squared, hn::Mul(speed, tolerance)));
+        const auto speed_error = hn::Set(floats, scale.speed_error * scale.speed_error);
+        const auto unsure = hn::Add(hn::Mul(speed, tolerance), hn::Mul(reach_squared, speed_error));
+        const auto parts =
+            hn::And(hn::And(hn::Lt(closing, zero), hn::Gt(least_reach, zero)), hn::Gt(closing_squared, unsure));
         const auto margin =
             hn::Mul(hn::Set(floats, discriminant_margin), hn::Add(closing_squared, hn::Mul(speed, reach_squared)));
         const auto discriminant = hn::Add(hn::Sub(closing_squared, hn::Mul(speed, outside)), margin);

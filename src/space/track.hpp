@@ -27,8 +27,9 @@ inline constexpr float never = std::numeric_limits<float>::infinity();
 
 /// What tracks are measured in, and how wrong they may be.
 struct TrackScale {
-    TickScale metres{};  ///< per tick
-    float tolerance = 0; ///< m, more than the errors of two tracks' places
+    TickScale metres{};    ///< per tick
+    float tolerance = 0;   ///< m, more than the errors of two tracks' places
+    float speed_error = 0; ///< m/s, more than the errors of two tracks' speeds
 };
 
 /// With u = 2^-24, |closing| and the parts of `outside` are wrong by up to 5 u |p| |w| and 5 u p^2, so the discriminant
@@ -49,8 +50,9 @@ inline float first_meeting(const Track& a, const Track& b, float from, float to,
     const float speed = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     if (outside <= 0) {
         // What has met and parts for good does not meet again.
-        const bool parts = closing < 0 && std::min(a.reach, b.reach) > 0 &&
-                           closing * closing > speed * (scale.tolerance * scale.tolerance);
+        const float unsure =
+            speed * (scale.tolerance * scale.tolerance) + reach_squared * (scale.speed_error * scale.speed_error);
+        const bool parts = closing < 0 && std::min(a.reach, b.reach) > 0 && closing * closing > unsure;
         return parts ? never : from;
     }
     const float closing_squared = closing * closing;

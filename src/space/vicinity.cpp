@@ -91,6 +91,8 @@ void Vicinity<Real>::start_epoch(const Census& census, const Window& window) {
         build(census, way);
     }
     epoch_valid_ = true;
+    // Twice 2^-24 of the speed that still suits tracks, along three axes.
+    scale_.speed_error = static_cast<float>(0x1p-22 * longest_track * typical_size_ / (length_ * windows_));
     plan_pairs();
 }
 
@@ -314,11 +316,28 @@ double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& accel
            2 * state_.resolution.metres;
 }
 
-/// What the calendar has for this window.
+/// Whether the contacts of a pile tell what a body may meet of it.
+template <class Real>
+bool Vicinity<Real>::is_told(Index body) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    return bodies.kind[body] == Kind::piled && body < bodies.loads.size() && bodies.loads[body].is_told &&
+           length_squared(velocity_of(bodies.motion[body])) <= told_speed_ * told_speed_;
+}
+
+template <class Real>
+bool Vicinity<Real>::are_told(Index a, Index b) const {
+    const Kind kind_a = state_.bodies.kind[a];
+    const Kind kind_b = state_.bodies.kind[b];
+    if (kind_a != Kind::piled && kind_b != Kind::piled) return false;
+    return (kind_a == Kind::fixed || is_told(a)) && (kind_b == Kind::fixed || is_told(b));
+}
+
+/// What the calendar has for this window, and the suspects.
 template <class Real>
 void Vicinity<Real>::collect_due() {
     clear_for_reuse(near_walls_);
     calendar_.take_walls(window_, near_walls_);
+    near_walls_.insert(near_walls_.end(), wall_suspects_.begin(), wall_suspects_.end());
     sort_and_unite(near_walls_);
     clear_for_reuse(due_);
     calendar_.take_pairs(window_, due_);
@@ -330,6 +349,7 @@ void Vicinity<Real>::collect_due() {
         prefetch(&tracks_[soon.first]);
         prefetch(&tracks_[soon.second]);
         const auto [a, b] = due_[k];
+        if (are_told(a, b)) return;
         const float time = first_meeting(tracks_[a], tracks_[b], window_start_, epoch_end(), scale_);
         if (time == never) return;
         if (time <= window_end_) {
@@ -340,6 +360,7 @@ void Vicinity<Real>::collect_due() {
     });
     clear_for_reuse(candidates_);
     for (const std::vector<Pair>& kept : kept_) candidates_.insert(candidates_.end(), kept.begin(), kept.end());
+    candidates_.insert(candidates_.end(), suspects_.begin(), suspects_.end());
 }
 
 template <class Real>
@@ -583,6 +604,7 @@ template <class Real>
 void Vicinity<Real>::plan_pair(std::size_t part, Index a, Index b, float time, std::uint32_t earliest) {
     // Whoever is too fast for a track looks for others itself, in each window.
     if (tracks_[b].room < 0 && tracks_[a].room >= 0) return;
+    if (are_told(a, b)) return;
     const std::uint32_t window = window_of(static_cast<double>(time), earliest);
     if (window < windows_) calendar_.add_pair(part, window, a, b);
 }
@@ -603,6 +625,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
     if (state_.bounds.walls().empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
+    if (is_told(body)) return;
     if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);
         return;

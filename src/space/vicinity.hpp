@@ -54,6 +54,15 @@ public:
     void disturb(Index body) {
         if (epoch_valid_) disturbed_.push_back(body);
     }
+    /// A piece begins. Of the piled bodies that are *told* of, as long as they are not faster than `told_speed` (m/s),
+    /// only the suspects may meet each other, a static body, or a wall.
+    void begin_piece(double told_speed) {
+        told_speed_ = told_speed;
+        clear_for_reuse(suspects_);
+        clear_for_reuse(wall_suspects_);
+    }
+    void suspect(Index a, Index b) { suspects_.push_back({a, b}); }
+    void suspect_at_wall(Index body) { wall_suspects_.push_back(body); }
     /// A step ended after `reached` s.
     void end_step(double reached);
     /// The next window makes everything anew: bodies may change places in memory at no cost.
@@ -132,6 +141,8 @@ private:
     void collect_due();
     void renew_disturbed();
     void renew_exits();
+    [[nodiscard]] bool is_told(Index body) const;
+    [[nodiscard]] bool are_told(Index a, Index b) const;
     void charge_held();
     void charge_piled();
     void charge(Index body);
@@ -226,6 +237,9 @@ private:
     std::vector<Index> renewed_; ///< bodies with new covers
     std::vector<Index> fast_;    ///< bodies with balls along their paths
     std::vector<Index> disturbed_;
+    std::vector<Pair> suspects_;
+    std::vector<Index> wall_suspects_;
+    double told_speed_ = 0; ///< m/s
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 

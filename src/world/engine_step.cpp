@@ -166,7 +166,9 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
         if (pile_.is_active()) {
             piece.piece_end = piece.to = pieces.end_after(piece.from);
             piece.begins_piece = true;
+            ++report_.pieces;
             pile_.begin_piece(piece.from, piece.to);
+            tell_of_pile();
         }
         progress = resolve_piece(census, piece, windows);
         pile_.end_piece(progress.reached);
@@ -178,6 +180,21 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     report_.edge_reached = progress.edge_reached;
     report_solvers();
     return progress.reached;
+}
+
+/// Lets the islands know who of a pile may have impacts in the piece.
+template <class Real>
+void Engine<Real>::tell_of_pile() {
+    Vicinity<Real>& vicinity = islands_.vicinity();
+    vicinity.begin_piece(pile_.told_speed());
+    pile_.for_each_strike([&vicinity](Index a, Index b) {
+        if (b == no_index) {
+            vicinity.suspect_at_wall(a);
+        } else {
+            vicinity.suspect(a, b);
+        }
+    });
+    pile_.for_each_untold([&vicinity](Index body) { vicinity.disturb(body); });
 }
 
 template <class Real>
@@ -313,7 +330,9 @@ void Engine<Real>::finish_step(double dt, double reached) {
     report_.impacts = outcome_.impacts;
     report_.face_impacts = outcome_.face_impacts;
     report_.tc_conversions = outcome_.tc_conversions;
-    report_.held = state_.bodies.holds.size();
+    report_.held = state_.bodies.holds.size() + pile_.size();
+    report_.contacts = state_.bodies.contacts.size();
+    for (const auto& [slot, hold] : state_.bodies.holds) report_.contacts += hold.supports.size();
     ledger_.impacts += outcome_.impacts;
     ledger_.face_impacts += outcome_.face_impacts;
     ledger_.lost_to_restitution = state_.books.lost_to_restitution.value();

@@ -9,7 +9,7 @@ CONTRACT = {"bodies", "steps", "dt", "threads", "precision", "simd", "wall_secon
             "ns_per_body_step_min", "impacts", "impacts_per_second", "contacts", "energy_initial", "energy_final",
             "energy_drift", "kinetic_initial", "kinetic_final", "momentum_drift", "max_overlap", "mean_overlap",
             "bodies_outside", "peak_rss_bytes", "bytes_per_body", "hash"}
-WORKLOADS = ("gas", "dense_gas", "cooling", "polydisperse", "bullets", "open_space")
+WORKLOADS = ("gas", "dense_gas", "cooling", "polydisperse", "bullets", "open_space", "pile")
 
 
 class Bench(CliTest):
@@ -27,6 +27,7 @@ class Bench(CliTest):
                 self.assertIn(result["simd"], self.json("info")["simd_targets"])
                 self.assertLess(abs(result["energy_drift"]), 1e-10)
                 self.assertLess(result["momentum_drift"], 1e-10)
+                # The pile is still falling then.
                 self.assertLess(result["max_overlap"], 1e-8)
                 self.assertEqual(result["bodies_outside"], 0)
                 self.assertGreater(result["peak_rss_bytes"], 1 << 20)
@@ -41,6 +42,9 @@ class Bench(CliTest):
         self.assertEqual((result["dt"], result["warmup"], result["steps"], result["repeat"]), (1 / 60, 120, 120, 3))
         self.assertEqual(result["precision"], "double")
         self.assertEqual(self.bench("dense_gas", 50)["dt"], 1 / 240)
+        pile = self.bench("pile", 20, "--repeat", 1)
+        self.assertEqual((pile["dt"], pile["warmup"], pile["steps"]), (1 / 60, 600, 60))
+        self.assertGreaterEqual(pile["contacts"], 20)
 
     def test_options(self):
         result = self.bench("gas", 50, "--dt", 0.01, "--steps", 3, "--warmup", 0, "--repeat", 1, "--precision",

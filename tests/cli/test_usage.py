@@ -85,7 +85,7 @@ class Usage(CliTest):
 
     def test_unknown_workload_names_the_known_ones(self):
         message = self.refused("bench", "soup", "--bodies", 10)
-        for name in ("soup", "gas", "dense_gas", "cooling", "polydisperse", "bullets", "open_space"):
+        for name in ("soup", "gas", "dense_gas", "cooling", "polydisperse", "bullets", "open_space", "pile"):
             self.assertIn(name, message)
 
     def test_threads_are_honest(self):

@@ -67,8 +67,9 @@ TEST(Workloads, AllAreSoundAtManySizes) {
             const Workload made = workload(info.name, bodies);
             EXPECT_EQ(made.scene.bodies.size(), bodies) << info.name;
             EXPECT_EQ(made.scene.name, info.name);
-            EXPECT_EQ(made.warm_up, 120U);
-            EXPECT_EQ(made.scene.run.steps, 120U);
+            const bool settles = info.name == "pile";
+            EXPECT_EQ(made.warm_up, settles ? 600U : 120U);
+            EXPECT_EQ(made.scene.run.steps, settles ? 60U : 120U);
             EXPECT_EQ(made.scene.run.dt, info.name == "dense_gas" ? 1.0 / 240 : 1.0 / 60);
             EXPECT_TRUE(made.scene.options.record_impacts);
             EXPECT_TRUE(overlaps_nowhere(made.scene.bodies)) << info.name << bodies;
@@ -82,6 +83,7 @@ TEST(Workloads, HaveFixedBits) {
         {"gas", 13610338298301637427U},     {"dense_gas", 9231723151860256037U},
         {"cooling", 12749702662353434235U}, {"polydisperse", 122655487250249214U},
         {"bullets", 645298910893836120U},   {"open_space", 2625640130122127999U},
+        {"pile", 17076673538468032606U},
     };
     for (const WorkloadInfo& info : workload_list()) {
         EXPECT_EQ(bits_of(workload(info.name, 2000).scene), expected.at(info.name)) << info.name;
@@ -173,6 +175,26 @@ TEST(Workloads, OpenSpace) {
     EXPECT_LE(last->x - first->x, 100 * 2 * side);
 }
 
+TEST(Workloads, Pile) {
+    const Scene scene = workload("pile", 1000).scene;
+    // 6 a side: the third root of 250 is 6.3.
+    const Box& box = std::get<Box>(scene.options.region);
+    EXPECT_EQ(box.min, (Vec3{0, 0, 0}));
+    EXPECT_NEAR(box.max.x, 6.6, 1e-12);
+    EXPECT_NEAR(box.max.y, 6.6, 1e-12);
+    EXPECT_EQ(box.faces[5].kind, FaceKind::open);
+    for (std::size_t face = 0; face < 5; ++face) EXPECT_EQ(box.faces[face].surface.restitution, 0);
+    EXPECT_EQ(scene.options.gravity, (Vec3{0, 0, -9.81}));
+    EXPECT_EQ(scene.bodies.restitution, std::vector<double>(1000, 0.3));
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const auto at = [](std::size_t n) { return 0.55 + 1.1 * static_cast<double>(n); };
+        const Vec3 off = scene.bodies.position[i] - Vec3{at(i % 6), at(i / 6 % 6), at(i / 36)};
+        EXPECT_LE(std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}), 0.02 + 1e-12);
+    }
+    // A cube: the third root of 1000 / 4 rounds down, that of 108 / 4 is 3.
+    EXPECT_NEAR(std::get<Box>(workload("pile", 108).scene.options.region).max.x, 3.3, 1e-12);
+}
+
 TEST(Workloads, RefusalsSayWhatIsAllowed) {
     const auto refusal = [](std::string_view name, std::uint64_t bodies) -> std::string {
         try {
@@ -183,7 +205,7 @@ TEST(Workloads, RefusalsSayWhatIsAllowed) {
         return "nothing was refused";
     };
     EXPECT_EQ(refusal("gaz", 1), "workload: must be one of gas, dense_gas, cooling, polydisperse, bullets, open_space, "
-                                 "got 'gaz'; did you mean 'gas'?");
+                                 "pile, got 'gaz'; did you mean 'gas'?");
     EXPECT_EQ(refusal("gas", 0), "bodies: must be in [1, 100000000], got 0");
     EXPECT_EQ(refusal("gas", 1'000'000'000'000'000'000), "bodies: must be in [1, 100000000], got 1000000000000000000");
     EXPECT_EQ(refusal("dense_gas", 15).substr(0, 33), "bodies: 15 bodies of radius 0.5 m");

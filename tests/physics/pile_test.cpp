@@ -1,0 +1,236 @@
+// Piles: bodies that lean on others that move come to rest, and what they rest on carries them.
+
+#include "scene/overlap_search.hpp"
+
+#include <carom/carom.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+namespace {
+
+using carom::Body;
+using carom::BodyId;
+using carom::Vec3;
+using carom::World;
+using carom::WorldOptions;
+
+constexpr double g = 9.81;
+constexpr double dt = 1.0 / 60;
+
+WorldOptions box_world(double side) {
+    WorldOptions options;
+    options.gravity = {0, 0, -g};
+    carom::Box box{{0, 0, 0}, {side, side, 100}};
+    for (carom::Face& face : box.faces) face.surface.restitution = 0;
+    box.faces[5].kind = carom::FaceKind::open;
+    options.region = box;
+    return options;
+}
+
+/// Spheres that fall as a lattice, a little out of order.
+World heap(int side, int layers, double friction, WorldOptions options) {
+    World world(std::move(options));
+    const double spacing = 1.1;
+    for (int k = 0; k < layers; ++k) {
+        for (int j = 0; j < side; ++j) {
+            for (int i = 0; i < side; ++i) {
+                const Vec3 off{0.02 * std::sin(3.0 * i + 7 * j + 11 * k), 0.02 * std::sin(5.0 * i + 2 * j + 3 * k), 0};
+                world.add({.position = Vec3{0.5 + i, 0.5 + j, 0.5 + k} * spacing + off,
+                           .restitution = 0.3,
+                           .friction = friction});
+            }
+        }
+    }
+    return world;
+}
+
+void run(World& world, double seconds, double step = dt) {
+    const double end = world.time() + seconds;
+    while (world.time() < end - step / 2) world.step(step);
+}
+
+double kinetic_per_body(const World& world) { return world.energy().kinetic / static_cast<double>(world.size()); }
+
+TEST(Pile, AHeapComesToRestAndNothingIsDampedOnTheWay) {
+    World world = heap(4, 10, 0.5, box_world(4.4));
+    const double start = world.energy().total();
+    run(world, 10);
+    carom::scene::OverlapSearch search(world);
+    const auto overlaps = search.find(world);
+    const carom::Ledger& ledger = world.ledger();
+    std::printf(
+        "figure: a heap of 160 after 10 s: %.2g J of kinetic energy a body, overlap %.2g diameters (mean %.2g)\n",
+        kinetic_per_body(world), overlaps.largest, overlaps.mean);
+    EXPECT_LE(kinetic_per_body(world), 1e-5);
+    EXPECT_LE(overlaps.mean, 0.003);
+    EXPECT_LE(overlaps.largest, 0.02);
+    EXPECT_EQ(world.report().held, world.size());
+    EXPECT_GE(world.report().contacts, world.size());
+    EXPECT_NEAR(world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-9 * start);
+}
+
+// What the floor gives in a second is what gravity takes.
+TEST(Pile, TheFloorCarriesTheWeight) {
+    World world = heap(4, 10, 0.5, box_world(4.4));
+    run(world, 10);
+    const Vec3 before = world.ledger().outer_impulse;
+    run(world, 1);
+    const double weight = g * static_cast<double>(world.size());
+    EXPECT_NEAR((world.ledger().outer_impulse - before).z, 0, 1e-3 * weight);
+}
+
+TEST(Pile, AnyStepGivesTheSameRest) {
+    for (const double step : {1.0 / 1000, 1.0 / 240, 1.0 / 60, 1.0 / 20}) {
+        WorldOptions options = box_world(10);
+        World world(options);
+        // Three that touch on the floor, and one on top of them.
+        const double far = 1 / std::sqrt(3.0);
+        for (int k = 0; k < 3; ++k) {
+            const double angle = 2 * std::numbers::pi * k / 3;
+            world.add({.position = Vec3{5, 5, 0.5} + Vec3{std::cos(angle), std::sin(angle), 0} * far,
+                       .restitution = 0,
+                       .friction = 0.5});
+        }
+        const BodyId top = world.add({.position = {5, 5, 0.6 + std::sqrt(2.0 / 3)}, .restitution = 0, .friction = 0.5});
+        run(world, 5, step);
+        EXPECT_NEAR(world.get(top).position.z, 0.5 + std::sqrt(2.0 / 3), 1e-3) << step;
+        EXPECT_LE(kinetic_per_body(world), 1e-9) << step;
+        EXPECT_TRUE(world.held(top)) << step;
+    }
+}
+
+TEST(Pile, APyramidWithFrictionStays) {
+    World world(box_world(20));
+    std::vector<BodyId> ids;
+    constexpr int base = 4;
+    for (int k = 0; k < base; ++k) {
+        for (int j = 0; j < base - k; ++j) {
+            for (int i = 0; i < base - k; ++i) {
+                const Vec3 place{5 + i + 0.5 * k, 5 + j + 0.5 * k, 0.5 + k / std::sqrt(2.0)};
+                ids.push_back(world.add({.position = place, .restitution = 0, .friction = 0.5}));
+            }
+        }
+    }
+    run(world, 1);
+    std::vector<Vec3> before;
+    for (const BodyId id : ids) before.push_back(world.get(id).position);
+    run(world, 59);
+    double drift = 0;
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        drift = std::max(drift, length(world.get(ids[k]).position - before[k]));
+    std::printf("figure: a pyramid of 30 spheres, mu = 0.5, drifts by %.2g diameters in a minute\n", drift);
+    EXPECT_LT(drift, 1e-4);
+}
+
+// Without friction it falls apart.
+TEST(Pile, APyramidWithoutFrictionFallsApart) {
+    World world(box_world(20));
+    for (const Vec3& place : {Vec3{5, 5, 0.5}, Vec3{6, 5, 0.5}, Vec3{5.5, 5, 0.5 + std::sqrt(0.75)}}) {
+        world.add({.position = place, .restitution = 0});
+    }
+    const BodyId top = world.ids().back();
+    run(world, 3);
+    EXPECT_NEAR(world.get(top).position.z, 0.5, 1e-3);
+}
+
+TEST(Pile, ABulletIntoAHeapKeepsMomentumAndThrowsBodiesOut) {
+    World world = heap(4, 6, 0, box_world(4.4));
+    run(world, 8);
+    double top = 0;
+    for (const BodyId id : world.ids()) top = std::max(top, world.get(id).position.z);
+    world.add({.position = {2.3, 2.1, top + 2}, .velocity = {3, 1, -200}, .mass = 2, .restitution = 0.3});
+    double highest = 0;
+    int impacts = 0;
+    int impacts_alone = 0;
+    for (int k = 0; k < 60; ++k) {
+        const Vec3 before = world.momentum() - world.ledger().outer_impulse;
+        world.step(dt);
+        const Vec3 after = world.momentum() - world.ledger().outer_impulse;
+        EXPECT_LE(length(after - before), 1e-9);
+        for (const carom::Impact& impact : world.impacts()) {
+            // What touches slowly again and again belongs to a contact.
+            if (impact.face >= 0 || impact.approach_speed < 0.01) continue;
+            const double m_a = world.get(impact.a).mass;
+            const double m_b = world.get(impact.b).mass;
+            const double reduced = m_a * m_b / (m_a + m_b);
+            // In a collapse e is 1. What lies against a face passes the blow on to it: it takes more to turn it.
+            const double e = impact.energy_lost == 0 ? 1 : 0.3;
+            const double alone = (1 + e) * reduced * impact.approach_speed;
+            EXPECT_GE(impact.impulse, alone * (1 - 1e-9));
+            ++impacts;
+            if (impact.impulse < alone * (1 + 1e-9)) ++impacts_alone;
+        }
+        for (const BodyId id : world.ids()) highest = std::max(highest, world.get(id).position.z);
+    }
+    EXPECT_GT(impacts, 50);
+    EXPECT_GE(impacts_alone, 0.8 * impacts);
+    EXPECT_GT(highest, top + 0.5);
+    for (const BodyId id : world.ids()) EXPECT_GT(world.get(id).position.z, 0.5 - 0.01);
+}
+
+TEST(Pile, ElasticBodiesNeverLean) {
+    World world(box_world(4.4));
+    for (int k = 0; k < 12; ++k) {
+        world.add({.position = {1.1 + 1.1 * (k % 3), 1.1 + 0.02 * k, 0.7 + 1.2 * (k / 3)}, .restitution = 1});
+    }
+    const double start = world.energy().total();
+    for (int k = 0; k < 120; ++k) {
+        world.step(dt);
+        EXPECT_EQ(world.report().pieces, 0U);
+    }
+    // The walls are inelastic here: only what goes to the floor is lost.
+    EXPECT_NEAR(world.energy().total() + world.ledger().lost_to_restitution, start, 1e-9 * start);
+}
+
+TEST(Pile, ARemovedBodyLetsOthersFall) {
+    World world(box_world(4.4));
+    const BodyId low = world.add({.position = {1, 1, 0.5}, .restitution = 0});
+    const BodyId high = world.add({.position = {1, 1, 1.52}, .restitution = 0});
+    run(world, 1);
+    EXPECT_TRUE(world.held(high));
+    EXPECT_NEAR(world.get(high).position.z, 1.5, 1e-3);
+    world.remove(low);
+    run(world, 1);
+    EXPECT_TRUE(world.held(high));
+    EXPECT_NEAR(world.get(high).position.z, 0.5, 1e-9);
+}
+
+TEST(Pile, GoesOnFromASnapshot) {
+    World world = heap(3, 6, 0.3, box_world(3.3));
+    run(world, 1);
+    EXPECT_GT(world.report().pieces, 0U);
+    World copy = World::load(world.save());
+    EXPECT_EQ(copy.hash(), world.hash());
+    run(world, 1);
+    run(copy, 1);
+    EXPECT_EQ(copy.hash(), world.hash());
+}
+
+TEST(Pile, BitsDoNotDependOnThreadsWindowsOrTheSolver) {
+    for (const carom::Precision precision : {carom::Precision::double_precision, carom::Precision::single_precision}) {
+        std::vector<std::uint64_t> hashes;
+        for (const bool reference : {true, false}) {
+            for (const unsigned threads : {1U, 2U, 8U}) {
+                for (const std::uint32_t windows : {1U, 2U, 7U}) {
+                    WorldOptions options = box_world(8.8);
+                    options.precision = precision;
+                    options.serial_reference = reference;
+                    options.threads = threads;
+                    options.min_windows = windows;
+                    World world = heap(8, 8, 0.2, options);
+                    run(world, 1.5);
+                    hashes.push_back(world.hash());
+                }
+            }
+        }
+        for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes.front());
+    }
+}
+
+} // namespace
