@@ -68,10 +68,36 @@ inline scene::Scene corners() {
     return scene;
 }
 
-inline constexpr std::array<std::string_view, 3> small_scene_names{"one_cell", "three_bodies", "corners"};
+/// They fall on each other and lie there as a heap, a body of other size and mass on top.
+inline scene::Scene heap() {
+    constexpr double side = 4.25;
+    constexpr std::size_t count = 65;
+    scene::Scene scene;
+    scene.options.gravity = {0, 0, -9.8125};
+    scene.options.region = Box{.min = {}, .max = {side, side, 8}};
+    scene.bodies = scene::BodyTable::of(count);
+    scene.bodies.radius.assign(count, 0.5);
+    scene.bodies.restitution.assign(count, 0.25);
+    scene.bodies.friction.assign(count, 0.25);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto cell = [k](unsigned axis) { return static_cast<double>(k >> 2 * axis & 3U); };
+        const double off = 0.015625 * static_cast<double>(k % 5);
+        scene.bodies.position[k] = {0.53125 + 1.0625 * cell(0) - off / 2, 0.53125 + 1.0625 * cell(1) + off / 4,
+                                    0.5 + 1.03125 * cell(2)};
+    }
+    scene.bodies.position.back() = {2, 2.125, 5};
+    scene.bodies.radius.back() = 0.25;
+    scene.bodies.mass.back() = 8;
+    return scene;
+}
+
+inline constexpr std::array<std::string_view, 4> small_scene_names{"one_cell", "three_bodies", "corners", "heap"};
 
 inline scene::Scene small_scene(std::string_view name, Precision precision) {
-    scene::Scene scene = name == "one_cell" ? one_cell() : name == "three_bodies" ? three_bodies() : corners();
+    scene::Scene scene = name == "one_cell"       ? one_cell()
+                         : name == "three_bodies" ? three_bodies()
+                         : name == "corners"      ? corners()
+                                                  : heap();
     scene.name = name;
     scene.options.precision = precision;
     return scene;
