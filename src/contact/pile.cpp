@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <tuple>
 
 namespace carom::core {
 
@@ -75,6 +75,7 @@ template <class Real>
 void Pile<Real>::begin_step() {
     clear_for_reuse(released_);
     clear_for_reuse(contacts_);
+    listed_until_ = 0;
     if (leaners_.empty() && state_.bodies.contacts.empty()) return;
     leaners_.clear();
     // Whatever is piled is to be gathered anew: bodies may have gone, or changed places in memory.
@@ -84,7 +85,7 @@ void Pile<Real>::begin_step() {
 template <class Real>
 void Pile<Real>::begin_piece(double from, double to) {
     clear_for_reuse(released_);
-    const bool is_listed = !state_.bodies.newly_piled && from < listed_until_;
+    const bool is_listed = from < listed_until_ && (!state_.bodies.newly_piled || take_back(from));
     if (!is_listed && !contacts_.empty()) keep_forces();
     piece_ = to - from;
     if (!is_listed) start_list(from);
@@ -94,7 +95,8 @@ void Pile<Real>::begin_piece(double from, double to) {
     constexpr double swing = 2 * std::numbers::pi * stiffness; // in a piece
     constexpr double damped = 2 * damping_ratio + swing;
     constexpr double a = swing * damped;
-    pass({.rate = swing / (damped * piece_), .mass = a / (1 + a), .impulse = 1 / (1 + a)});
+    const Softness soft{.rate = swing / (damped * piece_), .mass = a / (1 + a), .impulse = 1 / (1 + a)};
+    pass([this, &soft](std::uint32_t k) { return solve(contacts_[k], soft); });
     put_velocities();
     enter_loads();
 }
@@ -103,9 +105,11 @@ template <class Real>
 void Pile<Real>::end_piece(double at) {
     if (leaners_.empty()) return;
     advance_all(at);
-    measure();
     take_velocities({});
-    pass(Softness{});
+    pass([this](std::uint32_t k) {
+        measure(k);
+        return solve(contacts_[k], {});
+    });
     put_velocities();
     release_unsupported();
 }
@@ -113,9 +117,11 @@ void Pile<Real>::end_piece(double at) {
 template <class Real>
 void Pile<Real>::end_step(double reached) {
     keep_forces();
+    settle_accounts();
     if (state_.bodies.newly_piled) {
         gather();
         advance_all(reached);
+        settle_accounts();
     }
     state_.bodies.loads.clear();
 }
@@ -126,20 +132,24 @@ void Pile<Real>::end_step(double reached) {
 
 template <class Real>
 void Pile<Real>::start_list(double from) {
+    settle_accounts();
     gather();
     clear_for_reuse(contacts_);
     if (leaners_.empty()) return;
     advance_all(from);
+    for (Leaner& l : leaners_) {
+        l.listed = state_.bodies.motion[l.body].x;
+        l.moved = {};
+    }
     listed_until_ = from + list_life;
     // In that time, pairs that are no impacts approach by no more than this.
     const double gravity = length(state_.laws.gravity);
-    const double strike = 2 * told_speed();
-    margin_ = (strike + gravity * list_life) * list_life + 4 * state_.resolution.metres;
+    margin_ = (2 * told_speed() + gravity * list_life) * list_life + 4 * state_.resolution.metres;
     find_contacts();
     assign_cells();
     sort_contacts();
     recall_forces();
-    measure();
+    measure_all();
 }
 
 template <class Real>
@@ -155,25 +165,84 @@ void Pile<Real>::gather() {
         places_[i] = static_cast<std::uint32_t>(leaners_.size());
         leaners_.push_back({.body = i, .inverse_mass = 1 / static_cast<double>(bodies.mass[i])});
     }
+    accounts_.assign(leaners_.size(), {});
     bodies.newly_piled = false;
+}
+
+/// Takes bodies back that were let go, and soon came to lean again; false if any is piled that the list does not do
+/// for.
+template <class Real>
+bool Pile<Real>::take_back(double from) {
+    const Bodies<Real>& bodies = state_.bodies;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] != Kind::piled) continue;
+        if (places_[i] == nobody) return false;
+        Leaner& l = leaners_[places_[i]];
+        if (!l.is_gone) continue;
+        Entry entry;
+        advance(state_, i, from, entry);
+        add_to_account(places_[i], entry);
+        l.moved = to_metres(bodies.motion[i].x - l.listed, state_.resolution);
+        l.way = length(l.moved);
+        if (l.way > margin_ / 2) return false;
+        l.is_gone = false;
+        l.before = velocity_of(bodies.motion[i]);
+    }
+    state_.bodies.newly_piled = false;
+    measure_all();
+    return true;
+}
+
+template <class Real>
+void Pile<Real>::add_to_account(std::uint32_t leaner, const Entry& entry) {
+    accounts_[leaner].lost += entry.lost_to_restitution;
+    accounts_[leaner].held_mass_time += entry.held_mass_time;
+}
+
+template <class Real>
+void Pile<Real>::measure_all() {
+    for_each_in_parts(*executor_, contacts_.size(), contact_grain,
+                      [this](std::size_t, std::size_t k) { measure(static_cast<std::uint32_t>(k)); });
 }
 
 template <class Real>
 void Pile<Real>::advance_all(double at) {
-    std::array<ExactSum, most_parts> lost{};
-    std::array<ExactSum, most_parts> mass_time{};
-    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+    for_each_leaner([&](std::size_t, std::size_t k) {
+        Leaner& l = leaners_[k];
         Entry entry;
-        advance(state_, leaners_[k].body, at, entry);
-        lost[part].add(entry.lost_to_restitution);
-        mass_time[part].add(entry.held_mass_time);
+        advance(state_, l.body, at, entry);
+        add_to_account(static_cast<std::uint32_t>(k), entry);
+        l.moved = to_metres(state_.bodies.motion[l.body].x - l.listed, state_.resolution);
     });
-    for (std::size_t part = 1; part < parts_of(leaners_.size(), leaner_grain); ++part) {
-        lost[0].add(lost[part]);
-        mass_time[0].add(mass_time[part]);
+}
+
+/// Enters into the books what has happened to the bodies since they were gathered: exactly, so that their order in
+/// memory does not matter.
+template <class Real>
+void Pile<Real>::settle_accounts() {
+    struct Sums {
+        ExactVectorSum momentum;
+        ExactSum lost;
+        ExactSum held_mass_time;
+    };
+    if (accounts_.empty()) return;
+    std::array<Sums, most_parts> sums{};
+    for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+        sums[part].momentum.add(accounts_[k].momentum);
+        sums[part].lost.add(accounts_[k].lost);
+        sums[part].held_mass_time.add(accounts_[k].held_mass_time);
+    });
+    for (std::size_t part = 1; part < parts_of(accounts_.size(), leaner_grain); ++part) {
+        sums[0].momentum.add(sums[part].momentum);
+        sums[0].lost.add(sums[part].lost);
+        sums[0].held_mass_time.add(sums[part].held_mass_time);
     }
-    state_.books.lost_to_restitution.add(lost[0].value());
-    state_.books.held_mass_time.add(mass_time[0].value());
+    state_.books.outer_impulse.add(sums[0].momentum.value());
+    state_.books.lost_to_friction.add(friction_loss_);
+    state_.books.lost_to_restitution.add(sums[0].lost.value() - friction_loss_);
+    state_.books.held_mass_time.add(sums[0].held_mass_time.value());
+    friction_loss_ = 0;
+    accounts_.clear();
 }
 
 /// Finds all that the piled bodies are nearer to than the margin.
@@ -199,14 +268,15 @@ void Pile<Real>::find_contacts() {
         neighbours_.for_each(place, [&](Index other) { add_pair(found_[part], body_at(place), body_at(other)); });
         add_walls(found_[part], place);
     });
-    for (std::vector<Contact>& found : found_) {
-        contacts_.insert(contacts_.end(), found.begin(), found.end());
+    clear_for_reuse(all_found_);
+    for (std::vector<Found>& found : found_) {
+        all_found_.insert(all_found_.end(), found.begin(), found.end());
         clear_for_reuse(found);
     }
 }
 
 template <class Real>
-void Pile<Real>::add_pair(std::vector<Contact>& found, Index a, Index b) const {
+void Pile<Real>::add_pair(std::vector<Found>& found, Index a, Index b) const {
     const Bodies<Real>& bodies = state_.bodies;
     const bool is_static = bodies.kind[b] == Kind::fixed;
     // Of two leaners both have the other in their lists.
@@ -214,15 +284,16 @@ void Pile<Real>::add_pair(std::vector<Contact>& found, Index a, Index b) const {
     const Motion<Real>& m_a = bodies.motion[a];
     const Motion<Real>& m_b = bodies.motion[b];
     const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
-    if (length(separation(state_, m_a, m_b, {}, {})) > touching + margin_) return;
+    const Vec3 apart = separation(state_, m_a, m_b, {}, {});
+    if (length(apart) > touching + margin_) return;
     const Encounter encounter = encounter_of(state_, a, b);
-    found.push_back({.a = places_[a],
-                     .b = is_static ? nobody : places_[b],
-                     .slot = bodies.slot[a],
-                     .code = bodies.slot[b],
-                     .mass = reduced_mass(a, b),
-                     .friction = encounter.friction,
-                     .restitution = encounter.restitution});
+    found.push_back({{.slot = bodies.slot[a], .code = bodies.slot[b], .restitution = encounter.restitution},
+                     {.a = places_[a],
+                      .b = is_static ? nobody : places_[b],
+                      .apart = apart,
+                      .touching = touching,
+                      .mass = reduced_mass(a, b),
+                      .friction = encounter.friction}});
 }
 
 template <class Real>
@@ -232,7 +303,7 @@ double Pile<Real>::reduced_mass(Index a, Index b) const {
 }
 
 template <class Real>
-void Pile<Real>::add_walls(std::vector<Contact>& found, std::uint32_t a) const {
+void Pile<Real>::add_walls(std::vector<Found>& found, std::uint32_t a) const {
     const Index body = leaners_[a].body;
     const Motion<Real>& m = state_.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
@@ -241,12 +312,9 @@ void Pile<Real>::add_walls(std::vector<Contact>& found, std::uint32_t a) const {
         const Bounds::Wall& wall = state_.bounds.walls()[k];
         if (state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) > margin_) continue;
         const Encounter encounter = encounter_of(state_, body, wall);
-        found.push_back({.a = a,
-                         .slot = state_.bodies.slot[body],
-                         .code = Support::wall_bit | k,
-                         .mass = static_cast<double>(state_.bodies.mass[body]),
-                         .friction = encounter.friction,
-                         .restitution = encounter.restitution});
+        found.push_back(
+            {{.slot = state_.bodies.slot[body], .code = Support::wall_bit | k, .restitution = encounter.restitution},
+             {.a = a, .mass = static_cast<double>(state_.bodies.mass[body]), .friction = encounter.friction}});
     }
 }
 
@@ -292,7 +360,7 @@ auto Pile<Real>::cell_axis(int axis, const Census& census, std::uint64_t edge) c
 
 template <class Real>
 auto Pile<Real>::order_of(std::uint32_t number) const -> Order {
-    const Contact& contact = contacts_[number];
+    const auto& [name, contact] = all_found_[number];
     const Cell& a = cells_[contact.a];
     const Cell& b = contact.b == nobody ? a : cells_[contact.b];
     const std::uint64_t first = lower_cell(a.across[0], b.across[0], turns_[0]);
@@ -301,17 +369,22 @@ auto Pile<Real>::order_of(std::uint32_t number) const -> Order {
     return {.column = colour << 60U | first << 30U | second,
             .height = std::min(a.height, b.height),
             .contact = number,
-            .ids = std::uint64_t{contact.slot} << 32U | contact.code};
+            .ids = std::uint64_t{name.slot} << 32U | name.code};
 }
 
 template <class Real>
 void Pile<Real>::sort_contacts() {
-    orders_.resize(contacts_.size());
+    orders_.resize(all_found_.size());
     for (std::uint32_t k = 0; k < orders_.size(); ++k) orders_[k] = order_of(k);
     std::sort(orders_.begin(), orders_.end());
-    sorted_.resize(contacts_.size());
-    for (std::size_t k = 0; k < orders_.size(); ++k) sorted_[k] = contacts_[orders_[k].contact];
-    contacts_.swap(sorted_);
+    contacts_.resize(orders_.size());
+    names_.resize(orders_.size());
+    least_strike_ = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < orders_.size(); ++k) {
+        names_[k] = all_found_[orders_[k].contact].name;
+        contacts_[k] = all_found_[orders_[k].contact].contact;
+        least_strike_ = std::min(least_strike_, striking_speed(names_[k].restitution, 0, state_.laws));
+    }
     clear_for_reuse(columns_);
     colour_ends_ = {};
     for (std::uint32_t k = 0; k < orders_.size(); ++k) {
@@ -334,14 +407,14 @@ void Pile<Real>::recall_forces() {
     force_order_.resize(forces.size());
     for (std::uint32_t k = 0; k < forces.size(); ++k) force_order_[first_forces_[forces[k].a]++] = k;
     for_each_in_parts(*executor_, contacts_.size(), contact_grain, [&](std::size_t, std::size_t k) {
-        Contact& contact = contacts_[k];
+        const ContactName& name = names_[k];
         // The list of a body ends where it was counted up to.
-        const std::uint32_t begin = contact.slot == 0 ? 0 : first_forces_[contact.slot - 1];
-        for (std::uint32_t i = begin; i < first_forces_[contact.slot]; ++i) {
+        const std::uint32_t begin = name.slot == 0 ? 0 : first_forces_[name.slot - 1];
+        for (std::uint32_t i = begin; i < first_forces_[name.slot]; ++i) {
             const ContactForce& force = forces[force_order_[i]];
-            if (force.code != contact.code) continue;
-            contact.impulse = force.normal * piece_;
-            contact.friction_impulse = force.friction * piece_;
+            if (force.code != name.code) continue;
+            contacts_[k].impulse = force.normal * piece_;
+            contacts_[k].friction_impulse = force.friction * piece_;
         }
     });
 }
@@ -350,9 +423,10 @@ template <class Real>
 void Pile<Real>::keep_forces() {
     std::vector<ContactForce>& forces = state_.bodies.contacts;
     clear_for_reuse(forces);
-    for (const Contact& c : contacts_) {
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        const Contact& c = contacts_[k];
         if (!(c.impulse > 0)) continue;
-        forces.push_back({c.slot, c.code, c.impulse / piece_, c.friction_impulse / piece_});
+        forces.push_back({names_[k].slot, names_[k].code, c.impulse / piece_, c.friction_impulse / piece_});
     }
 }
 
@@ -360,56 +434,67 @@ void Pile<Real>::keep_forces() {
 // Solving them
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Looks where the bodies of all contacts are.
+/// Looks where the bodies of a contact are.
 template <class Real>
-void Pile<Real>::measure() {
-    for_each_in_parts(*executor_, contacts_.size(), contact_grain,
-                      [this](std::size_t, std::size_t k) { measure(contacts_[k]); });
-}
-
-template <class Real>
-void Pile<Real>::measure(Contact& contact) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    const Motion<Real>& m = bodies.motion[leaners_[contact.a].body];
-    const auto radius = static_cast<double>(m.radius);
-    Vec3 relative = -velocity_of(m);
-    if ((contact.code & Support::wall_bit) != 0) {
-        const Bounds::Wall& wall = state_.bounds.walls()[contact.code & ~Support::wall_bit];
-        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        contact.gap = state_.bounds.gap(wall, m.x, {}, radius, state_.resolution);
-    } else {
-        const Motion<Real>& other = bodies.motion[bodies.slots[contact.code]];
-        const Vec3 delta = separation(state_, m, other, {}, {});
-        contact.normal = contact_normal(delta, Vec3{});
-        contact.gap = length(delta) - radius - static_cast<double>(other.radius);
-        relative += velocity_of(other);
+void Pile<Real>::measure(std::uint32_t number) {
+    Contact& contact = contacts_[number];
+    const Leaner& a = leaners_[contact.a];
+    if (a.is_gone || (contact.b != nobody && leaners_[contact.b].is_gone)) {
+        contact.gap = std::numeric_limits<double>::infinity();
+        contact.is_open = true;
+        contact.impulse = 0;
+        return;
     }
-    contact.is_open = contact.gap > 0 && -dot(relative, contact.normal) > strike_of(contact);
+    const std::uint32_t code = contact.b == nobody ? names_[number].code : 0;
+    if ((code & Support::wall_bit) != 0) {
+        const Motion<Real>& m = state_.bodies.motion[a.body];
+        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
+        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
+        contact.gap = state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), state_.resolution);
+    } else {
+        const Vec3 delta = contact.apart + (contact.b == nobody ? -a.moved : leaners_[contact.b].moved - a.moved);
+        const double distance = length(delta);
+        contact.normal = distance > 0 ? delta / distance : contact_normal(delta, Vec3{});
+        contact.gap = distance - contact.touching;
+    }
+    contact.is_open =
+        contact.gap > 0 && approach_of(contact) > least_strike_ && approach_of(contact) > strike_of(number);
     if (contact.is_open) contact.impulse = 0;
+    if (contact.friction == 0) return;
     contact.friction_impulse -= contact.normal * dot(contact.friction_impulse, contact.normal);
     if (contact.impulse == 0) contact.friction_impulse = {};
 }
 
+/// m/s, by the velocities that the bodies had before the passes.
 template <class Real>
-double Pile<Real>::strike_of(const Contact& contact) const {
+double Pile<Real>::approach_of(const Contact& contact) const {
+    const Vec3 other = contact.b == nobody ? Vec3{} : leaners_[contact.b].before;
+    return dot(leaners_[contact.a].before - other, contact.normal);
+}
+
+template <class Real>
+double Pile<Real>::strike_of(std::uint32_t number) const {
+    const Contact& contact = contacts_[number];
     double load = load_on(state_.bodies, leaners_[contact.a].body);
     if (contact.b != nobody) load = std::min(load, load_on(state_.bodies, leaners_[contact.b].body));
-    return striking_speed(contact.restitution, load, state_.laws);
+    return striking_speed(names_[number].restitution, load, state_.laws);
 }
 
 /// Whether the two may strike each other in the piece that has begun.
 template <class Real>
-bool Pile<Real>::may_strike(const Contact& contact) const {
+bool Pile<Real>::may_strike(std::uint32_t number) const {
+    const Contact& contact = contacts_[number];
     const Vec3 other = contact.b == nobody ? Vec3{} : leaners_[contact.b].v;
     // The normal turns on the way.
     const double closing = length(leaners_[contact.a].v - other);
-    return closing > strike_of(contact) && 1.001 * closing * piece_ + 2 * state_.resolution.metres >= contact.gap;
+    const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
+    return closing > least_strike_ && way >= contact.gap && closing > strike_of(number);
 }
 
 /// Takes the bodies' velocities, changed by so much (m/s).
 template <class Real>
 void Pile<Real>::take_velocities(const Vec3& change) {
-    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t, std::size_t k) {
+    for_each_leaner([&](std::size_t, std::size_t k) {
         Leaner& l = leaners_[k];
         l.before = velocity_of(state_.bodies.motion[l.body]);
         l.v = l.before + change;
@@ -419,30 +504,27 @@ void Pile<Real>::take_velocities(const Vec3& change) {
 /// Gives the bodies their velocities, and enters what that changed.
 template <class Real>
 void Pile<Real>::put_velocities() {
-    struct Change {
-        ExactVectorSum momentum;
-        ExactSum energy;
-    };
-    std::array<Change, most_parts> changes{};
-    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+    for_each_leaner([&](std::size_t, std::size_t k) {
         Leaner& l = leaners_[k];
         Motion<Real>& m = state_.bodies.motion[l.body];
         m.v = rounded<Real>(l.v);
         const Vec3 after = velocity_of(m);
         const auto mass = static_cast<double>(state_.bodies.mass[l.body]);
-        changes[part].momentum.add((after - l.before) * mass);
-        changes[part].energy.add(0.5 * mass * dot(l.before - after, l.before + after));
+        accounts_[k].momentum += (after - l.before) * mass;
+        accounts_[k].lost += 0.5 * mass * dot(l.before - after, l.before + after);
     });
-    for (std::size_t part = 1; part < parts_of(leaners_.size(), leaner_grain); ++part) {
-        changes[0].momentum.add(changes[part].momentum);
-        changes[0].energy.add(changes[part].energy);
-    }
-    state_.books.outer_impulse.add(changes[0].momentum.value());
-    state_.books.lost_to_friction.add(friction_loss_);
-    state_.books.lost_to_restitution.add(changes[0].energy.value() - friction_loss_);
 }
 
-/// Calls f(part, contact) for all contacts, colour by colour: columns of one colour at the same time, and each upwards.
+/// Calls f(part, k) for all bodies that have not been let go.
+template <class Real>
+template <class F>
+void Pile<Real>::for_each_leaner(F&& f) {
+    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+        if (!leaners_[k].is_gone) f(part, k);
+    });
+}
+
+/// Calls f(part, number) for all contacts, colour by colour: columns of one colour at the same time, and each upwards.
 template <class Real>
 template <class F>
 void Pile<Real>::for_each_contact(F&& f) {
@@ -451,38 +533,47 @@ void Pile<Real>::for_each_contact(F&& f) {
         if (end == begin) continue;
         for_each_in_parts(*executor_, end - begin, column_grain, [&](std::size_t part, std::size_t k) {
             const Column& column = columns_[begin + k];
-            for (std::uint32_t c = column.begin; c < column.end; ++c) f(part, contacts_[c]);
+            for (std::uint32_t c = column.begin; c < column.end; ++c) f(part, c);
         });
         begin = end;
     }
 }
 
-/// Applies the impulses of the piece before.
+/// Applies the impulses of the piece before, and finds the strongest of each body.
 template <class Real>
 void Pile<Real>::warm_up() {
-    for_each_contact([this](std::size_t, Contact& contact) {
-        contact.carries = false;
-        if (contact.impulse > 0) push(contact, contact.normal * contact.impulse + contact.friction_impulse);
+    for_each_leaner([this](std::size_t, std::size_t k) {
+        leaners_[k].pressing = 0;
+        leaners_[k].is_supported = false;
+    });
+    for_each_contact([this](std::size_t, std::uint32_t k) {
+        const Contact& contact = contacts_[k];
+        if (!(contact.impulse > 0)) return;
+        push(contact, contact.normal * contact.impulse + contact.friction_impulse);
+        const auto press = [&](Leaner& l) {
+            l.pressing = std::max(l.pressing, contact.impulse * l.inverse_mass / piece_);
+        };
+        press(leaners_[contact.a]);
+        if (contact.b != nobody) press(leaners_[contact.b]);
     });
 }
 
+/// Calls f(number), which returns the energy (J) that friction took, for all contacts.
 template <class Real>
-void Pile<Real>::pass(const Softness& softness) {
+template <class F>
+void Pile<Real>::pass(F&& f) {
     std::array<double, most_parts> losses{};
-    for_each_contact([&](std::size_t part, Contact& contact) {
-        if (!contact.is_open) losses[part] += solve(contact, softness);
-    });
-    friction_loss_ = 0;
+    for_each_contact([&](std::size_t part, std::uint32_t k) { losses[part] += f(k); });
     for (const double loss : losses) friction_loss_ += loss;
 }
 
 /// Solves one contact; returns the energy that its friction took, J.
 template <class Real>
 double Pile<Real>::solve(Contact& contact, const Softness& softness) {
-    const auto relative = [this, &contact] {
-        return (contact.b == nobody ? Vec3{} : leaners_[contact.b].v) - leaners_[contact.a].v;
-    };
-    const double parting = dot(relative(), contact.normal);
+    if (contact.is_open) return 0;
+    Leaner& a = leaners_[contact.a];
+    const Vec3 slip = (contact.b == nobody ? Vec3{} : leaners_[contact.b].v) - a.v;
+    const double parting = dot(slip, contact.normal);
     double impulse = 0;
     if (contact.gap > 0) {
         // As fast as they just do not touch at the end of the piece.
@@ -493,20 +584,23 @@ double Pile<Real>::solve(Contact& contact, const Softness& softness) {
     }
     impulse = std::max(impulse, -contact.impulse);
     contact.impulse += impulse;
-    contact.carries = contact.carries || contact.impulse > 0;
+    if (contact.impulse > 0 && contact.b != nobody) a.is_supported = leaners_[contact.b].is_supported = true;
     push(contact, contact.normal * impulse);
-    if (contact.friction == 0) return 0;
-    const Vec3 slip = relative();
-    const Vec3 across = slip - contact.normal * dot(slip, contact.normal);
+    return contact.friction == 0 ? 0 : rub(contact, slip - contact.normal * parting);
+}
+
+/// Brakes the sliding (m/s) of the other on a leaner, as far as friction can; returns the energy that it took, J.
+template <class Real>
+double Pile<Real>::rub(Contact& contact, const Vec3& sliding) {
     const Vec3 before = contact.friction_impulse;
-    Vec3 wanted = before - across * contact.mass;
+    Vec3 wanted = before - sliding * contact.mass;
     const double most = contact.friction * contact.impulse;
     const double size = length(wanted);
     if (size > most) wanted *= most / size;
     contact.friction_impulse = wanted;
     const Vec3 change = wanted - before;
     push(contact, change);
-    return -dot(change, across + change * (0.5 / contact.mass));
+    return -dot(change, sliding + change * (0.5 / contact.mass));
 }
 
 /// Gives the other of a contact an impulse (N s), and the leaner the opposite.
@@ -522,40 +616,35 @@ void Pile<Real>::push(const Contact& contact, const Vec3& impulse) {
 /// Lets everybody know how the bodies are pressed.
 template <class Real>
 void Pile<Real>::enter_loads() {
-    std::vector<Load>& loads = state_.bodies.loads;
-    for (Leaner& l : leaners_) {
+    std::array<double, most_parts> tops{}; // m^2/s^2
+    for_each_leaner([&](std::size_t part, std::size_t k) {
+        Leaner& l = leaners_[k];
+        const double squared = length_squared(l.v);
+        tops[part] = std::max(tops[part], squared);
         // An impact may change its speed within the piece.
-        l.way += std::max(length(l.v), told_speed()) * piece_ + state_.resolution.metres;
-        loads[l.body] = {.pull = (l.v - l.before) / piece_, .is_told = l.way <= margin_ / 2};
-    }
-    for (const Contact& c : contacts_) {
-        const double force = c.impulse / piece_;
-        const auto press = [&](const Leaner& l) {
-            double& pressing = loads[l.body].pressing;
-            pressing = std::max(pressing, force * l.inverse_mass);
-        };
-        press(leaners_[c.a]);
-        if (c.b != nobody) press(leaners_[c.b]);
-    }
+        l.way += std::max(std::sqrt(squared), told_speed()) * piece_ + state_.resolution.metres;
+        const bool is_told = l.way <= margin_ / 2;
+        state_.bodies.loads[l.body] = {.pull = (l.v - l.before) / piece_, .pressing = l.pressing, .is_told = is_told};
+    });
+    top_speed_ = std::sqrt(*std::max_element(tops.begin(), tops.end()));
 }
 
 /// Lets those go that no contact with a moving body carried or pushed.
 template <class Real>
 void Pile<Real>::release_unsupported() {
-    for (Leaner& l : leaners_) l.is_supported = false;
-    for (const Contact& contact : contacts_) {
-        if (!contact.carries || contact.b == nobody) continue;
-        leaners_[contact.a].is_supported = true;
-        leaners_[contact.b].is_supported = true;
-    }
-    for (const Leaner& l : leaners_) {
-        if (l.is_supported) continue;
+    for (Leaner& l : leaners_) {
+        if (l.is_supported || l.is_gone) continue;
+        l.is_gone = true;
         state_.bodies.kind[l.body] = Kind::free;
         state_.bodies.loads[l.body] = {};
         released_.push_back(l.body);
     }
-    // The list is without them from the next piece on.
-    if (!released_.empty()) state_.bodies.newly_piled = true;
+}
+
+template <class Real>
+std::size_t Pile<Real>::size() const {
+    return static_cast<std::size_t>(
+        std::count_if(leaners_.begin(), leaners_.end(), [](const Leaner& l) { return !l.is_gone; }));
 }
 
 template class Pile<float>;

@@ -37,7 +37,7 @@ public:
     /// Whether bodies are piled: to be asked between pieces.
     [[nodiscard]] bool is_active() const { return !leaners_.empty() || state_.bodies.newly_piled; }
     /// Bodies, after end_step().
-    [[nodiscard]] std::size_t size() const { return leaners_.size(); }
+    [[nodiscard]] std::size_t size() const;
     /// Start of a piece [from, to] (s since the start of the step): sets the velocities of the piled bodies.
     void begin_piece(double from, double to);
     /// End of it, or of what a step that ends early did of it. Bodies that nothing supports any more are free again.
@@ -49,10 +49,11 @@ public:
     /// strike a wall, as far as bodies are told of (see Load) and no faster than told_speed().
     template <class F>
     void for_each_strike(F&& f) const {
-        for (const Contact& c : contacts_) {
-            if (!may_strike(c)) continue;
-            const bool is_wall = (c.code & Support::wall_bit) != 0;
-            f(leaners_[c.a].body, is_wall ? no_index : state_.bodies.slots[c.code]);
+        if (2 * top_speed_ <= least_strike_) return;
+        for (std::uint32_t k = 0; k < contacts_.size(); ++k) {
+            if (!may_strike(k)) continue;
+            const bool is_wall = (names_[k].code & Support::wall_bit) != 0;
+            f(leaners_[contacts_[k].a].body, is_wall ? no_index : state_.bodies.slots[names_[k].code]);
         }
     }
     /// m/s
@@ -61,7 +62,7 @@ public:
     template <class F>
     void for_each_untold(F&& f) const {
         for (const Leaner& l : leaners_) {
-            if (!state_.bodies.loads[l.body].is_told) f(l.body);
+            if (!l.is_gone && !state_.bodies.loads[l.body].is_told) f(l.body);
         }
     }
 
@@ -78,27 +79,45 @@ private:
     /// A piled body while it is worked on.
     struct Leaner {
         Index body = no_index;
-        bool is_supported = false;
-        double way = 0;          ///< m that it came at most since it was listed
-        double inverse_mass = 0; ///< 1/kg
-        Vec3 v{};                ///< m/s
-        Vec3 before{};           ///< m/s, when the passes began
+        bool is_gone = false;      ///< it was let go
+        bool is_supported = false; ///< by a contact with a body that moves, in this piece
+        double inverse_mass = 0;   ///< 1/kg
+        Vec3 v{};                  ///< m/s
+        Vec3 before{};             ///< m/s, when the passes began
+        Vec3 moved{};              ///< m, since it was listed
+        double pressing = 0;       ///< m/s^2, as in Load
+        double way = 0;            ///< m that it came at most since it was listed
+        Int3 listed{};             ///< units
     };
-    /// What a leaner touches, or may while the list lasts.
+    /// What is not in the books yet.
+    struct Account {
+        Vec3 momentum{};           ///< N s
+        double lost = 0;           ///< J
+        double held_mass_time = 0; ///< kg s
+    };
+    /// What a leaner touches, or may while the list lasts. Two cache lines: the passes stream through them.
     struct Contact {
         std::uint32_t a = 0;      ///< a leaner; of two, the one with the lower slot
         std::uint32_t b = nobody; ///< the other leaner, or nobody
-        std::uint32_t slot = 0;   ///< of a
-        std::uint32_t code = 0;   ///< as in ContactForce
+        Vec3 apart{};             ///< m, from a to another body when they were listed
+        double touching = 0;      ///< m, the distance at which they touch
+        Vec3 normal{};            ///< unit vector from a to the other
+        double gap = 0;           ///< m
+        double impulse = 0;       ///< N s in a piece, pushes them apart
         double mass = 0;          ///< kg, reduced
         double friction = 0;      ///< Coulomb's mu
+        Vec3 friction_impulse{};  ///< N s in a piece, on the other
+        bool is_open = false;     ///< left to the impacts: the two approach too fast
+    };
+    /// What is seldom asked of a contact.
+    struct ContactName {
+        std::uint32_t slot = 0; ///< of a
+        std::uint32_t code = 0; ///< as in ContactForce
         double restitution = 0;
-        bool is_open = false;    ///< left to the impacts: the two approach too fast
-        bool carries = false;    ///< there was a force in this piece
-        double gap = 0;          ///< m, at the start of the passes
-        Vec3 normal{};           ///< unit vector from a to the other
-        double impulse = 0;      ///< N s in a piece, pushes them apart
-        Vec3 friction_impulse{}; ///< N s in a piece, on the other
+    };
+    struct Found {
+        ContactName name{};
+        Contact contact{};
     };
     /// Where a leaner was when the contacts were listed, in cells that no contact is longer than.
     struct Cell {
@@ -142,10 +161,12 @@ private:
 
     void start_list(double from);
     void gather();
+    bool take_back(double from);
     void advance_all(double at);
+    void add_to_account(std::uint32_t leaner, const Entry& entry);
     void find_contacts();
-    void add_pair(std::vector<Contact>& found, Index a, Index b) const;
-    void add_walls(std::vector<Contact>& found, std::uint32_t a) const;
+    void add_pair(std::vector<Found>& found, Index a, Index b) const;
+    void add_walls(std::vector<Found>& found, std::uint32_t a) const;
     [[nodiscard]] double reduced_mass(Index a, Index b) const;
     void assign_cells();
     [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
@@ -154,19 +175,25 @@ private:
     void recall_forces();
     void keep_forces();
 
-    void measure();
-    void measure(Contact& contact) const;
-    [[nodiscard]] double strike_of(const Contact& contact) const;
-    [[nodiscard]] bool may_strike(const Contact& contact) const;
-    void enter_loads();
+    void measure_all();
+    void measure(std::uint32_t number);
+    [[nodiscard]] double approach_of(const Contact& contact) const;
+    [[nodiscard]] double strike_of(std::uint32_t number) const;
+    [[nodiscard]] bool may_strike(std::uint32_t number) const;
     void take_velocities(const Vec3& change);
     void put_velocities();
+    void settle_accounts();
+    template <class F>
+    void for_each_leaner(F&& f);
     template <class F>
     void for_each_contact(F&& f);
     void warm_up();
-    void pass(const Softness& softness);
+    template <class F>
+    void pass(F&& f);
     [[nodiscard]] double solve(Contact& contact, const Softness& softness);
+    [[nodiscard]] double rub(Contact& contact, const Vec3& sliding);
     void push(const Contact& contact, const Vec3& impulse);
+    void enter_loads();
     void release_unsupported();
 
     State<Real>& state_;
@@ -176,6 +203,8 @@ private:
     std::vector<Leaner> leaners_;
     std::vector<std::uint32_t> places_; ///< per body: in leaners_, or nobody
     std::vector<Index> statics_;
+    std::vector<Account> accounts_; ///< per leaner
+    std::vector<ContactName> names_;
     std::vector<Contact> contacts_; ///< in the order in which they are solved
     std::vector<Column> columns_;
     std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_
@@ -184,17 +213,19 @@ private:
 
     // The piece.
     double piece_ = 0;         ///< s
-    double friction_loss_ = 0; ///< J, in the last pass
+    double friction_loss_ = 0; ///< J, not in the books yet
+    double top_speed_ = 0;     ///< m/s, of the leaners
+    double least_strike_ = 0;  ///< m/s: what is slower strikes nothing
     std::vector<Index> released_;
 
     // Room to make the list in.
     Ticks ticks_;
     Neighbours neighbours_;
-    std::array<std::vector<Contact>, most_parts> found_;
+    std::array<std::vector<Found>, most_parts> found_;
+    std::vector<Found> all_found_;
     std::vector<Cell> cells_; ///< per leaner
     std::array<std::uint32_t, 2> turns_{};
     std::vector<Order> orders_;
-    std::vector<Contact> sorted_;
     std::vector<std::uint32_t> first_forces_;
     std::vector<std::uint32_t> force_order_;
 };

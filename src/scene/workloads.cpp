@@ -160,7 +160,8 @@ void pile(std::uint64_t bodies, Scene& scene) {
     const auto side = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted * (1 + 1e-12)));
     const std::uint64_t layer = side * side;
     const double width = spacing * static_cast<double>(side);
-    const double height = spacing * static_cast<double>(bodies / layer + 1);
+    const std::uint64_t layers = bodies / layer + 1;
+    const double height = spacing * static_cast<double>(layers);
     Box box{.min = {0, 0, 0}, .max = {width, width, height}};
     for (Face& face : box.faces) face.surface.restitution = 0;
     box.faces.back() = {.kind = FaceKind::open};

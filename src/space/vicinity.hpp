@@ -61,7 +61,7 @@ public:
         clear_for_reuse(suspects_);
         clear_for_reuse(wall_suspects_);
     }
-    void suspect(Index a, Index b) { suspects_.push_back({a, b}); }
+    void suspect(Index a, Index b) { suspects_.emplace_back(a, b); }
     void suspect_at_wall(Index body) { wall_suspects_.push_back(body); }
     /// A step ended after `reached` s.
     void end_step(double reached);

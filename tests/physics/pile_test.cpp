@@ -14,7 +14,6 @@
 
 namespace {
 
-using carom::Body;
 using carom::BodyId;
 using carom::Vec3;
 using carom::World;
@@ -119,6 +118,7 @@ TEST(Pile, APyramidWithFrictionStays) {
     }
     run(world, 1);
     std::vector<Vec3> before;
+    before.reserve(ids.size());
     for (const BodyId id : ids) before.push_back(world.get(id).position);
     run(world, 59);
     double drift = 0;
@@ -177,7 +177,8 @@ TEST(Pile, ABulletIntoAHeapKeepsMomentumAndThrowsBodiesOut) {
 TEST(Pile, ElasticBodiesNeverLean) {
     World world(box_world(4.4));
     for (int k = 0; k < 12; ++k) {
-        world.add({.position = {1.1 + 1.1 * (k % 3), 1.1 + 0.02 * k, 0.7 + 1.2 * (k / 3)}, .restitution = 1});
+        const int layer = k / 3;
+        world.add({.position = {1.1 + 1.1 * (k % 3), 1.1 + 0.02 * k, 0.7 + 1.2 * layer}, .restitution = 1});
     }
     const double start = world.energy().total();
     for (int k = 0; k < 120; ++k) {
