@@ -34,10 +34,11 @@ LAYERS = {
     "src/contact": ("collision", "space"),
     "src/impact": ("collision", "space", "contact"),
     "src/world": ("collision", "space", "contact", "impact"),
+    "src/observe": ("collision",),
     "src/scene": ("collision",),
     "apps/carom": ("scene",),
 }
-SRC_FOLDERS = ("collision", "space", "contact", "impact", "world", "scene")
+SRC_FOLDERS = ("collision", "space", "contact", "impact", "world", "observe", "scene")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\[[^\]]*\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
