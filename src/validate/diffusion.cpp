@@ -1,0 +1,128 @@
+// Self-diffusion of the elastic gas, by mean squared displacement.
+
+#include "validate/cases.hpp"
+#include "validate/gas.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::validate {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t samples_per_free_time = 4;
+constexpr std::size_t settled = 10 * samples_per_free_time; ///< lag after which displacements diffuse
+constexpr std::size_t most_lag = 20 * samples_per_free_time;
+
+struct Measurement {
+    GasSetup gas;
+    std::size_t segments = 16;
+    std::size_t segment_samples = 400; ///< of each
+};
+
+/// m^2/s: Enskog's self-diffusion with the second Sonine approximation.
+double enskog(double packing) {
+    return 0.375 / (6 * packing / pi * contact_value(packing)) / std::sqrt(pi) * 1.018954;
+}
+
+/// Pa s: Enskog's shear viscosity.
+double viscosity(double packing) {
+    const double chi = contact_value(packing);
+    const double x = 4 * packing;
+    return 5.0 / 16 / std::sqrt(pi) * (1 / chi + 0.8 * x + 0.7614 * x * x * chi);
+}
+
+/// m^2/s by which diffusion in a periodic cube falls short of that in an infinite system.
+double periodic_correction(const GasSetup& gas) { return 2.837297 / (6 * pi * viscosity(gas.packing) * gas.side()); }
+
+struct Diffusion {
+    Estimate coefficient; ///< m^2/s
+    Estimate early;       ///< mean squared displacement by 3 t^2 at the shortest lag
+};
+
+/// Displacements over 0.005 mean free times, by those of free flight.
+double early_ratio(World& world, double free_time) {
+    Correlations early(1, 1);
+    Sample sample;
+    sample.read(world);
+    early.observe(sample);
+    world.step(0.005 * free_time);
+    sample.read(world);
+    early.observe(sample);
+    const double t = early.time(1);
+    return early.squared_displacement(1).value / (3 * t * t);
+}
+
+Diffusion measure(const Measurement& m) {
+    World world = make_gas(m.gas);
+    const double free_time = 1 / collision_rate(m.gas.packing);
+    const double dt = free_time / samples_per_free_time;
+    while (collisions_per_body(world) < 50) world.step(dt);
+    std::vector<double> coefficients;
+    std::vector<double> ratios;
+    Sample sample;
+    for (std::size_t segment = 0; segment < m.segments; ++segment) {
+        ratios.push_back(early_ratio(world, free_time));
+        Correlations correlations(most_lag, 5);
+        for (std::size_t i = 0; i < m.segment_samples; ++i) {
+            sample.read(world);
+            correlations.observe(sample);
+            world.step(dt);
+        }
+        const double moved =
+            correlations.squared_displacement(most_lag).value - correlations.squared_displacement(settled).value;
+        coefficients.push_back(moved / (6 * (correlations.time(most_lag) - correlations.time(settled))));
+    }
+    return {mean_of(coefficients), mean_of(ratios)};
+}
+
+std::string described(const Measurement& m) {
+    return fmt::format("{} spheres in a periodic cube, packing {:.4g}, {} stretches of {} mean free times",
+                       m.gas.bodies(), m.gas.packing, m.segments, m.segment_samples / samples_per_free_time);
+}
+
+/// Against Enskog's theory and the ratio that molecular dynamics has to it.
+Findings run_against_enskog(const Measurement& m, double ratio) {
+    const Diffusion measured = measure(m);
+    const double infinite = ratio * enskog(m.gas.packing);
+    const double reference = infinite - periodic_correction(m.gas);
+    Findings findings;
+    findings.rows.push_back(statistical_row(
+        {"self-diffusion, m^2/s", described(m),
+         fmt::format("Enskog times {} (independent MD, 1 %), less 2.837 kT / (6 pi eta L) for the periodic cube", ratio)},
+        {reference, 0.01 * infinite}, measured.coefficient, 0.02 * reference));
+    findings.rows.push_back(statistical_row({"mean squared displacement / 3 t^2, 0.005 mean free times", described(m),
+                                             "free flight"},
+                                            {1, 0.005 / 2}, measured.early, 0.02));
+    return findings;
+}
+
+/// DynamO's unit test: n = 1/2.
+Findings run_against_dynamo(const Measurement& m) {
+    const Diffusion measured = measure(m);
+    constexpr const char* source = "DynamO's unit tests, N = 1372";
+    Findings findings;
+    findings.rows.push_back(statistical_row({"self-diffusion, m^2/s", described(m), source}, {0.247, 0.247 * 0.04},
+                                            measured.coefficient, 0.08 * 0.247));
+    return findings;
+}
+
+} // namespace
+
+std::vector<Task> diffusion_tasks(Extent extent) {
+    const bool full = extent == Extent::full;
+    const std::size_t segments = full ? 64 : 16;
+    const double cost = full ? 40 : 6;
+    const Measurement dilute{.gas = {.packing = 0.01, .per_axis = 12, .seed = 31}, .segments = segments};
+    const Measurement gas{.gas = {.packing = 0.1, .per_axis = 12, .seed = 32}, .segments = segments};
+    const Measurement dense{.gas = {.packing = pi / 12, .per_axis = 11, .seed = 33}, .segments = segments};
+    return {{cost, [dilute] { return run_against_enskog(dilute, 1.002); }},
+            {cost, [gas] { return run_against_enskog(gas, 1.078); }},
+            {cost, [dense] { return run_against_dynamo(dense); }}};
+}
+
+} // namespace carom::validate

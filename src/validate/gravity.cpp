@@ -1,0 +1,149 @@
+// A gas under gravity: hydrostatic balance, equal temperature at all heights, and the barometric law.
+
+#include "validate/cases.hpp"
+#include "validate/gas.hpp"
+
+#include "collision/portable_math.hpp"
+#include "scene/generators.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::validate {
+
+namespace {
+
+constexpr double radius = 0.5;        // m
+constexpr double side = 30;           // m, periodic along x and y
+constexpr double scale_height = 10;   // m: kT / (m g)
+constexpr double gravity = 1 / scale_height;
+constexpr std::size_t bodies = 800;
+constexpr double column = bodies / (side * side); // 1/m^2
+constexpr double dt = 0.5;            // s
+
+World make_column(std::uint64_t seed) {
+    scene::Random random(seed);
+    scene::Occupancy occupancy({.min = {0, 0, 0}, .length = {side, side, 0}});
+    const std::vector<double> radii(bodies, radius);
+    const auto sample = [](double r, scene::Random& source) {
+        const double x = source.uniform(0, side);
+        const double y = source.uniform(0, side);
+        return std::optional(Vec3{x, y, r - scale_height * detail::log(1 - source.unit())});
+    };
+    constexpr double ample = side * side * 10 * scale_height;
+    std::vector<Vec3> positions = scene::place_randomly(radii, {sample, ample}, occupancy, random);
+    std::vector<Vec3> velocities(bodies);
+    Vec3 mean{};
+    for (Vec3& v : velocities) {
+        v = random.normal_vector();
+        mean += v / double{bodies};
+    }
+    for (Vec3& v : velocities) v -= mean;
+    Box box{.min = {0, 0, 0}, .max = {side, side, 1}};
+    for (std::size_t face : {0U, 1U, 2U, 3U}) box.faces[face].kind = FaceKind::periodic;
+    box.faces[5].kind = FaceKind::open;
+    World world({.gravity = {0, 0, -gravity}, .region = box, .threads = 1});
+    world.add({.position = positions, .velocity = velocities, .radius = radii});
+    return world;
+}
+
+/// The mean height above the floor's plane of contact, by kT / (m g), in hydrostatic balance: P = n kT Z(n), dP/dz =
+/// - n m g, at one temperature (kT in J).
+double hydrostatic_height(double kt) {
+    // Down from where there is next to nothing: the weight above gives the pressure, that the density.
+    const double floor_pressure = column * gravity;
+    const auto density_at = [kt](double pressure) {
+        double n = pressure / kt;
+        for (int i = 0; i < 60; ++i) n = pressure / (kt * compressibility(n * std::numbers::pi / 6));
+        return n;
+    };
+    // Mean height = integral of z n dz / column = integral of P dz / (m g column), and dz = -dP / (m g n).
+    constexpr int steps = 4000;
+    double integral = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double pressure = floor_pressure * (i + 0.5) / steps;
+        integral += pressure / density_at(pressure) * floor_pressure / steps;
+    }
+    return integral / (gravity * gravity * column) * gravity / kt;
+}
+
+struct Column {
+    Estimate height;           ///< mean height above contact with the floor, m
+    Estimate kinetic;          ///< J, per body and degree of freedom, twice
+    double vertical = 0;       ///< J, mean m v_z^2
+    double floor_force = 0;    ///< N
+    double virial = 0;         ///< J, per body, along z
+    Estimate upper_temperature; ///< J, of bodies above one scale height
+    double impacts = 0;
+};
+
+Column measure(double duration) {
+    World world = make_column(41);
+    while (world.time() < 1000) world.step(dt);
+    ImpactStatistics impacts(world);
+    BlockAverage height;
+    BlockAverage kinetic;
+    BlockAverage vertical;
+    Profile upper(2, scale_height, 100 * scale_height, 1, side * side);
+    Sample sample;
+    const double begin = world.time();
+    while (world.time() < begin + duration) {
+        world.step(dt);
+        impacts.observe(world);
+        sample.read(world);
+        upper.observe(sample);
+        double z = 0;
+        double squares = 0;
+        for (std::size_t i = 0; i < bodies; ++i) {
+            z += sample.position[i].z - radius;
+            squares += sample.velocity[i].z * sample.velocity[i].z;
+        }
+        height.add(z / bodies);
+        vertical.add(squares / bodies);
+        // Momentum along x and y is fixed: 3 N - 2 degrees of freedom.
+        kinetic.add(2 * world.energy().kinetic / (3.0 * bodies - 2));
+    }
+    return {.height = height.estimate(),
+            .kinetic = kinetic.estimate(),
+            .vertical = vertical.estimate().value,
+            .floor_force = impacts.face_force(4).value,
+            .virial = impacts.virial_rate(2).value / bodies,
+            .upper_temperature = upper.temperature(0),
+            .impacts = static_cast<double>(impacts.count())};
+}
+
+Findings run(double duration, double admitted) {
+    const Column c = measure(duration);
+    const std::string setup = fmt::format("{} elastic spheres on a floor, periodic {} m x {} m, scale height {} m, {:.2g} impacts",
+                                          bodies, side, side, scale_height, c.impacts);
+    const double weight = bodies * gravity;
+    const double kt = c.kinetic.value;
+    const double ratio = gravity * c.height.value / kt;
+    // Energy is fixed: where the gas is high it is cold. So the ratio's error is 1 + 2/3 ratio times that of the height.
+    const double ratio_error = gravity * c.height.standard_error / kt * (1 + 2.0 / 3 * ratio);
+    const double balance = gravity * c.height.value;
+    Findings findings;
+    findings.rows = {
+        exact_row({"force on the floor, N", setup, "weight: N m g"}, weight, c.floor_force, 1e-3 * weight),
+        exact_row({"m g <z>, J", setup, "virial theorem along z: <m v_z^2> + virial of the impacts, in the same run"},
+                  c.vertical + c.virial, balance, 2e-3 * balance),
+        statistical_row({"mean height by kT / (m g)", setup,
+                         fmt::format("hydrostatic balance with the {} (barometric law: 1)", equation_source)},
+                        {hydrostatic_height(kt), 0}, {ratio, ratio_error}, admitted),
+        statistical_row({"kT above one scale height, by kT", setup, "equal temperature at all heights"}, {1, 0},
+                        {c.upper_temperature.value / kt, c.upper_temperature.standard_error / kt}, admitted)};
+    return findings;
+}
+
+} // namespace
+
+std::vector<Task> gravity_tasks(Extent extent) {
+    const bool full = extent == Extent::full;
+    const double duration = full ? 200'000 : 20'000;
+    const double admitted = full ? 5e-3 : 2e-2;
+    return {{full ? 80.0 : 8.0, [duration, admitted] { return run(duration, admitted); }}};
+}
+
+} // namespace carom::validate
