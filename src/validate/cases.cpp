@@ -14,7 +14,7 @@ constexpr std::array all_groups{
     Group{"long_run", long_run_tasks},
 };
 
-constexpr std::array<std::string_view, 6> untested{
+constexpr std::array<std::string_view, 8> untested{
     "Packing of poured spheres, its coordination number, and the weight of a heap at rest on the floor: carom has no "
     "solver for resting contacts yet.",
     "Compression by growing radii or moving walls to packing 0.60: radii and walls do not move.",
@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, 6> untested{
     "Coulomb friction in impacts: no published reference without rotation is at hand; the tests of the library compare "
     "it with its own law.",
     "Attractors (gravity of points): compared with closed orbits in the tests of the library only.",
+    "Coincident centres in a world, where such a pair parts freely: tested with the pair functions only.",
+    "A bouncing ball in single precision at the default resolution: its last bounces are as high as that, and it does not "
+    "come to rest.",
     "Pressure of mixtures and of bodies of different sizes; only equal spheres were measured.",
 };
 

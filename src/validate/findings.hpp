@@ -53,7 +53,7 @@ struct Point {
 
 enum class Mark : std::uint8_t { line, points };
 
-/// Something to draw in the plot of that name.
+/// Something to draw in the plot of that name. What belongs together there, a law and its measurement, has one name.
 struct Curve {
     std::string plot;
     std::string name;

@@ -103,7 +103,14 @@ void add_state_rows(const State& state, const Measured& measured, Findings& find
     findings.rows.push_back(statistical_row(
         {"collision rate per body, 1/s", setup, fmt::format("4 sqrt(pi) n chi, chi from the {}", equation_source)},
         {rate, 0}, measured.rate, state.admitted * rate));
-    findings.curves.push_back({"state", "carom", Mark::points, {{packing, measured.z.value, measured.z.standard_error}}});
+    if (state.gas.precision == Precision::single_precision) return;
+    findings.curves.push_back({"state", "Z", Mark::points, {{packing, measured.z.value, measured.z.standard_error}}});
+    const double percent = 100 / z;
+    findings.curves.push_back(
+        {"residual",
+         "Z",
+         Mark::points,
+         {{packing, (measured.z.value - z) * percent, measured.z.standard_error * percent}}});
 }
 
 void add_speed_rows(const State& state, const Measured& measured, Findings& findings) {
@@ -142,10 +149,10 @@ Findings run_state(const State& state) {
     if (!state.plots_structure) return findings;
     add_speed_rows(state, measured, findings);
     findings.curves.push_back(
-        {"speeds", fmt::format("carom, packing {}", state.gas.packing), Mark::points, measured.speeds});
+        {"speeds", fmt::format("packing {}", state.gas.packing), Mark::points, measured.speeds});
     findings.curves.push_back({"g", fmt::format("packing {}", state.gas.packing), Mark::line, measured.g});
     const double chi = contact_value(state.gas.packing);
-    findings.curves.push_back({"g", "contact value (Z - 1) / 4 eta", Mark::points, {{1, chi}}});
+    findings.curves.push_back({"g", fmt::format("packing {}", state.gas.packing), Mark::points, {{1, chi}}});
     return findings;
 }
 
@@ -175,7 +182,7 @@ Findings run_walls(double collisions) {
 
 Findings run_reference_curves() {
     return {.rows = {},
-            .curves = {{"state", "modified Kolafa-Labik-Malijevsky", Mark::line, equation_curve()},
+            .curves = {{"state", "Z", Mark::line, equation_curve()},
                        {"speeds", "Maxwell", Mark::line, maxwell_curve()}}};
 }
 
