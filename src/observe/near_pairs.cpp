@@ -9,8 +9,6 @@ namespace carom::observe {
 
 namespace {
 
-constexpr std::size_t most_cells = 128; // along an axis
-
 /// The way across the nearer periodic face.
 double wrapped(double d, double size) {
     if (d > 0.5 * size) return d - size;
@@ -34,31 +32,46 @@ std::vector<std::size_t> beside(std::size_t place, std::size_t cells, bool is_pe
 } // namespace
 
 NearPairs::NearPairs(const Sample& sample, double reach) : reach_(reach) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        Axis& axis = axes_[k];
-        axis.is_periodic = sample.box && sample.box->faces[2 * k].kind == FaceKind::periodic;
-        double high = 0;
-        if (axis.is_periodic) {
-            axis.low = component(sample.box->min, k);
-            high = component(sample.box->max, k);
-        } else if (!sample.position.empty()) {
-            const auto less = [k](const Vec3& a, const Vec3& b) { return component(a, k) < component(b, k); };
-            const auto ends = std::minmax_element(sample.position.begin(), sample.position.end(), less);
-            axis.low = component(*ends.first, k);
-            high = component(*ends.second, k);
-        }
-        axis.size = high > axis.low ? high - axis.low : reach;
-        axis.cells = std::clamp(static_cast<std::size_t>(std::min(axis.size / reach, double{most_cells})),
-                                std::size_t{1}, most_cells);
+    for (std::size_t k = 0; k < 3; ++k) lay_axis(sample, k);
+    sort_bodies(sample);
+}
+
+void NearPairs::lay_axis(const Sample& sample, std::size_t k) {
+    Axis& axis = axes_[k];
+    axis.is_periodic = sample.box && sample.box->faces[2 * k].kind == FaceKind::periodic;
+    double high = 0;
+    if (axis.is_periodic) {
+        axis.low = component(sample.box->min, k);
+        high = component(sample.box->max, k);
+    } else if (!sample.position.empty()) {
+        const auto less = [k](const Vec3& a, const Vec3& b) { return component(a, k) < component(b, k); };
+        const auto ends = std::minmax_element(sample.position.begin(), sample.position.end(), less);
+        axis.low = component(*ends.first, k);
+        high = component(*ends.second, k);
+    }
+    axis.size = high > axis.low ? high - axis.low : reach_;
+    // About as many cells as bodies at most: visiting empty ones costs as well.
+    const double most = 1 + std::cbrt(static_cast<double>(sample.position.size()));
+    axis.cells = static_cast<std::size_t>(std::max(1.0, std::min(axis.size / reach_, most)));
+    for (std::size_t place = 0; place < axis.cells; ++place) {
+        axis.beside.push_back(beside(place, axis.cells, axis.is_periodic));
+    }
+}
+
+void NearPairs::sort_bodies(const Sample& sample) {
+    std::vector<std::size_t> cell(sample.position.size());
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const Vec3& x = sample.position[i];
+        cell[i] = number_of({place(axes_[0], x.x), place(axes_[1], x.y), place(axes_[2], x.z)});
     }
     first_.assign(axes_[0].cells * axes_[1].cells * axes_[2].cells + 1, 0);
-    for (const Vec3& x : sample.position) ++first_[cell_of(x) + 1];
+    for (const std::size_t c : cell) ++first_[c + 1];
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    bodies_.resize(sample.position.size());
-    places_.resize(sample.position.size());
-    for (std::size_t i = 0; i < sample.position.size(); ++i) {
-        const std::size_t k = next[cell_of(sample.position[i])]++;
+    bodies_.resize(cell.size());
+    places_.resize(cell.size());
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const std::size_t k = next[cell[i]]++;
         bodies_[k] = static_cast<std::uint32_t>(i);
         places_[k] = sample.position[i];
     }
@@ -69,21 +82,12 @@ std::size_t NearPairs::place(const Axis& axis, double x) const {
     return std::min(static_cast<std::size_t>(std::max(cell, 0.0)), axis.cells - 1);
 }
 
-std::size_t NearPairs::cell_of(const Vec3& x) const {
-    return (place(axes_[2], x.z) * axes_[1].cells + place(axes_[1], x.y)) * axes_[0].cells + place(axes_[0], x.x);
-}
-
-std::vector<std::size_t> NearPairs::neighbours(std::size_t cell) const {
-    const std::size_t row = cell / axes_[0].cells;
-    std::vector<std::size_t> found;
-    for (const std::size_t z : beside(row / axes_[1].cells, axes_[2].cells, axes_[2].is_periodic)) {
-        for (const std::size_t y : beside(row % axes_[1].cells, axes_[1].cells, axes_[1].is_periodic)) {
-            for (const std::size_t x : beside(cell % axes_[0].cells, axes_[0].cells, axes_[0].is_periodic)) {
-                found.push_back((z * axes_[1].cells + y) * axes_[0].cells + x);
-            }
-        }
+bool NearPairs::may_wrap(const Cell& a, const Cell& b) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_beside = a[k] <= b[k] + 1 && b[k] <= a[k] + 1;
+        if (axes_[k].is_periodic && (axes_[k].cells < 3 || !is_beside)) return true;
     }
-    return found;
+    return false;
 }
 
 Vec3 NearPairs::short_way(Vec3 d) const {

@@ -67,8 +67,9 @@ void RadialDistribution::observe(const Sample& sample) {
     if (bodies < 2 || references == 0) return;
     std::fill(counts_.begin(), counts_.end(), 0.0);
     const double width = most_ / static_cast<double>(counts_.size());
+    const double shells_per_metre = 1 / width;
     observe::NearPairs(sample, most_).visit([&](std::uint32_t i, std::uint32_t j, double square) {
-        const auto shell = static_cast<std::size_t>(std::sqrt(square) / width);
+        const auto shell = static_cast<std::size_t>(std::sqrt(square) * shells_per_metre);
         if (shell < counts_.size()) counts_[shell] += is_reference[i] + is_reference[j];
     });
     const Vec3 size = sample.box->max - sample.box->min;

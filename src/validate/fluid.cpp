@@ -60,7 +60,7 @@ Measured measure(const State& state) {
     const double kt = temperature(world);
     ImpactStatistics impacts(world);
     Speeds speeds(5, 50);
-    RadialDistribution radial(3, 150);
+    RadialDistribution radial(3, 100);
     Sample sample;
     for (std::uint64_t step = 0; static_cast<double>(impacts.count()) < state.pair_impacts; ++step) {
         world.step(dt);

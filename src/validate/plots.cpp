@@ -32,10 +32,10 @@ constexpr std::array styles{
     PlotStyle{"speeds", "Speeds in equilibrium", "Line: Maxwell's distribution. Dots: carom.", "speed, sqrt(kT / m)",
               "probability density"},
     PlotStyle{"a2", "Relaxation from equal speeds",
-              "Line: carom, with standard errors. Dots: independent computation.", "collisions per body", "a2"},
+              "Line: carom. Dots: independent computation.", "collisions per body", "a2"},
     PlotStyle{"haff", "Cooling by inelastic impacts", "Lines: Haff's law. Dots: carom, one run each.",
-              "time, diameters / initial thermal speed", "temperature by that at the start", true},
-    PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n. Dots: carom.", "bounce", "height by that of the drop", true},
+              "time, diameters / initial thermal speed", "T / T(0)", true},
+    PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n. Dots: carom.", "bounce", "height / H", true},
 };
 
 struct Range {
@@ -73,10 +73,13 @@ void draw(scene::Picture& picture, const Axes& axes, const Curve& curve, std::st
     for (const Point& point : curve.points) {
         const double x = axes.x.at(point.x);
         const double y = axes.y.at(point.y);
-        const double high = axes.y.at(point.y + point.error);
-        if (std::abs(high - y) > 1) picture.line(fmt::format("line {}", colour), x, axes.y.at(point.y - point.error), x, high);
-        if (curve.mark == Mark::points) picture.dot(fmt::format("dot {}", colour), x, y, 3.2);
         line.push_back({x, y});
+        if (curve.mark == Mark::line) continue;
+        const double high = axes.y.at(point.y + point.error);
+        if (std::abs(high - y) > 1) {
+            picture.line(fmt::format("line {}", colour), x, axes.y.at(point.y - point.error), x, high);
+        }
+        picture.dot(fmt::format("dot {}", colour), x, y, 3.2);
     }
     if (curve.mark == Mark::line) picture.curve(colour, line);
 }
