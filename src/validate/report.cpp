@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <mutex>
 #include <numeric>
 
@@ -34,10 +35,21 @@ struct Work {
     }
 };
 
+/// A computation that fails is a row that fails.
+Findings run_or_report(const Task& task) {
+    try {
+        return task.run();
+    } catch (const std::exception& error) {
+        Findings findings;
+        findings.rows.push_back(exact_row({"computation", error.what(), "it ends without an error"}, 0, 1, 0));
+        return findings;
+    }
+}
+
 void run_one(void* context, std::size_t /*part*/) {
     Work& work = *static_cast<Work*>(context);
     const std::size_t task = work.start_next();
-    work.found[task] = work.tasks[task].run();
+    work.found[task] = run_or_report(work.tasks[task]);
     work.finish();
 }
 
