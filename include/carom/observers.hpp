@@ -5,9 +5,10 @@
 /// trajectory. Two kinds of input: ImpactStatistics and Energies look at the world after each step; all others look at
 /// a Sample, the world's bodies read once for all of them, as often as the caller likes. Samples nearer than about one
 /// collision per body tell little new: with one every 20th step, and pairs of bodies (RadialDistribution, Coordination)
-/// every 100th, all observers together cost less than a tenth of the steps (tests/observe/cost_test.cpp). The same world
-/// and the same calls give the same bits. SI units; temperatures are kT, in joules. Static bodies are left out unless it says otherwise.
-/// Formulas: Allen & Tildesley, Computer Simulation of Liquids (2nd edition 2017), chapters 2 and 8.
+/// every 100th, all observers together cost less than a tenth of the steps (tests/observe/cost_test.cpp). The same
+/// world and the same calls give the same bits. SI units; temperatures are kT, in joules. Static bodies are left out
+/// unless it says otherwise. Formulas: Allen & Tildesley, Computer Simulation of Liquids (2nd edition 2017), chapters 2
+/// and 8.
 #pragma once
 
 #include <carom/base.hpp>
@@ -31,8 +32,8 @@ struct Estimate {
 };
 
 /// Weighted mean of a series whose neighbours depend on each other. The standard error is that of the means of 32 to
-/// 64 blocks of equally many samples; blocks grow with the series (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989)):
-/// it is right once a block lasts longer than the correlation does.
+/// 64 blocks of equally many samples; blocks grow with the series (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461
+/// (1989)): it is right once a block lasts longer than the correlation does.
 class BlockAverage {
 public:
     /// `weight` >= 0: for ratios of sums (say per body, in bins that hold a varying number of them).
@@ -99,8 +100,8 @@ public:
     /// along `axis` (0 to 2), over all impacts between bodies, by time.
     [[nodiscard]] Estimate virial_rate(std::size_t axis) const { return virial_.at(axis).estimate(); }
     /// Pa, by the virial theorem: (2 K + sum over impacts of impulse times contact distance / t) / (3 V), K being the
-    /// kinetic energy at the end of every 8th step and V the volume of the box. Error{not_available} naming `region` where
-    /// the world is not bounded by a box.
+    /// kinetic energy at the end of every 8th step and V the volume of the box. Error{not_available} naming `region`
+    /// where the world is not bounded by a box.
     [[nodiscard]] Estimate pressure() const;
     /// N, the mean force on a face of the region by the momentum that bodies leave there (`face` as in Impact::face).
     [[nodiscard]] Estimate face_force(std::size_t face) const;
@@ -140,8 +141,8 @@ public:
     [[nodiscard]] Estimate moment(std::size_t power) const { return moments_.at(power - 1).estimate(); }
     /// J, mean kinetic energy per degree of freedom, twice: the mean of m v^2 / 3.
     [[nodiscard]] Estimate temperature() const { return temperature_.estimate(); }
-    /// Second Sonine coefficient (3/5) <v^4> / <v^2>^2 - 1, the mean over samples; 0 for Maxwell's distribution of equal
-    /// masses (of N bodies with a given energy -2 / (3 N), to first order).
+    /// Second Sonine coefficient (3/5) <v^4> / <v^2>^2 - 1, the mean over samples; 0 for Maxwell's distribution of
+    /// equal masses (of N bodies with a given energy -2 / (3 N), to first order).
     [[nodiscard]] Estimate a2() const { return a2_.estimate(); }
 
 private:

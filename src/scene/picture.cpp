@@ -20,7 +20,8 @@ int decimals_of(double tick) { return std::max(0, -static_cast<int>(std::floor(s
 
 /// A number at a line of the grid: plain, or as a power of ten.
 std::string tick_text(const Scale& scale, double value) {
-    if (!scale.logarithmic) return number_text(std::abs(value) < 1e-6 * scale.tick ? 0 : value, decimals_of(scale.tick));
+    if (!scale.logarithmic)
+        return number_text(std::abs(value) < 1e-6 * scale.tick ? 0 : value, decimals_of(scale.tick));
     const auto power = static_cast<int>(std::lround(std::log10(value)));
     if (power == 0) return "1";
     return fmt::format(R"(10<tspan dy="-5" style="font-size:10px">{}</tspan>)", number_text(power, 0));

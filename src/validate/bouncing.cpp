@@ -1,8 +1,7 @@
 // A ball on the floor: heights, times and energy, with closed formulas; SimBenchmark's bouncing balls.
 
-#include "validate/cases.hpp"
-
 #include "collision/portable_math.hpp"
+#include "validate/cases.hpp"
 
 #include <carom/world.hpp>
 
@@ -101,12 +100,13 @@ Findings run_apexes(Extent extent) {
     double largest = 0;
     for (const Impact& impact : elastic.impacts) largest = std::max(largest, std::abs(apex_after(impact, 1) - 1));
     Findings findings;
-    findings.rows = {exact_row({"apexes: largest relative error", "ball dropped from 1 m, e = 0.8, 10 bounces", "H e^2n"},
-                               0, worst, 1e-9),
-                     exact_row({"apexes: largest error, m",
-                                fmt::format("ball dropped from 1 m, e = 1, {} bounces", elastic.impacts.size()),
-                                "the height stays, but for half a unit of the world's resolution at each bounce"},
-                               0, largest, 0.5 * static_cast<double>(elastic.impacts.size()) * elastic.resolution)};
+    findings.rows = {
+        exact_row({"apexes: largest relative error", "ball dropped from 1 m, e = 0.8, 10 bounces", "H e^2n"}, 0, worst,
+                  1e-9),
+        exact_row({"apexes: largest error, m",
+                   fmt::format("ball dropped from 1 m, e = 1, {} bounces", elastic.impacts.size()),
+                   "the height stays, but for half a unit of the world's resolution at each bounce"},
+                  0, largest, 0.5 * static_cast<double>(elastic.impacts.size()) * elastic.resolution)};
     return findings;
 }
 
@@ -131,10 +131,10 @@ double sim_benchmark(double dt) {
 Findings run_sim_benchmark() {
     Findings findings;
     for (const double dt : {1e-3, 1e-2, 1e-1}) {
-        findings.rows.push_back(
-            exact_row({"SimBenchmark bouncing: energy error, J^2", fmt::format("49 elastic balls, 20 s, dt = {} s", dt),
-                       "exact times of impact: 0; published at 1e-3 s: RaiSim 0.0186, ODE 185, DART 72 274, Bullet 75 245"},
-                      0, sim_benchmark(dt), 1e-12));
+        findings.rows.push_back(exact_row(
+            {"SimBenchmark bouncing: energy error, J^2", fmt::format("49 elastic balls, 20 s, dt = {} s", dt),
+             "exact times of impact: 0; published at 1e-3 s: RaiSim 0.0186, ODE 185, DART 72 274, Bullet 75 245"},
+            0, sim_benchmark(dt), 1e-12));
     }
     return findings;
 }

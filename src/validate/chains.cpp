@@ -1,8 +1,7 @@
 // Cradles and chains in a line, and the billiard whose impacts count digits of pi: exact sequences.
 
-#include "validate/cases.hpp"
-
 #include "collision/portable_math.hpp"
+#include "validate/cases.hpp"
 
 #include <carom/world.hpp>
 
@@ -73,8 +72,9 @@ Findings run_chains() {
     add_chain({5, 1, 0.9}, {0.043525082, 0.045372965, 0.047296641, 0.049299062, 0.81450625}, 10, 5.1e-10, products,
               findings);
     const Strike long_chain{.balls = 20, .e = 0.9};
-    findings.rows.push_back(exact_row({"chain: velocity of the last ball, m/s", "20 balls, e = 0.9", "((1 + e) / 2)^19"},
-                                      detail::pow(0.95, 19), outcome_of(long_chain).velocities.back(), 1e-13));
+    findings.rows.push_back(
+        exact_row({"chain: velocity of the last ball, m/s", "20 balls, e = 0.9", "((1 + e) / 2)^19"},
+                  detail::pow(0.95, 19), outcome_of(long_chain).velocities.back(), 1e-13));
     return findings;
 }
 

@@ -25,9 +25,7 @@ struct Measurement {
 };
 
 /// m^2/s: Enskog's self-diffusion with the second Sonine approximation.
-double enskog(double packing) {
-    return 0.375 / (6 * packing / pi * contact_value(packing)) / std::sqrt(pi) * 1.018954;
-}
+double enskog(double packing) { return 0.375 / (6 * packing / pi * contact_value(packing)) / std::sqrt(pi) * 1.018954; }
 
 struct Diffusion {
     Estimate coefficient; ///< m^2/s
@@ -86,9 +84,10 @@ Findings run_against_enskog(const Measurement& m, double ratio) {
     const std::string setup = described(m);
     Findings findings;
     findings.rows = {
-        statistical_row({"self-diffusion, m^2/s", setup,
-                         fmt::format("Enskog times {} (independent MD, 1 to 2 %; sizes and lags of a few per cent)", ratio)},
-                        {reference, 0.015 * reference}, measured.coefficient, 0.02 * reference),
+        statistical_row(
+            {"self-diffusion, m^2/s", setup,
+             fmt::format("Enskog times {} (independent MD, 1 to 2 %; sizes and lags of a few per cent)", ratio)},
+            {reference, 0.015 * reference}, measured.coefficient, 0.02 * reference),
         statistical_row({"mean squared displacement by 3 t^2", setup + "; t = 0.005 mean free times", "free flight"},
                         {early, 0}, measured.early, 0.005)};
     return findings;

@@ -27,8 +27,8 @@ Row statistical_row(Claim claim, const Estimate& reference, const Estimate& meas
     row.standard_error = std::hypot(reference.standard_error, measured.standard_error);
     const double deviation = measured.value - reference.value;
     row.sigmas = deviation / row.standard_error;
-    row.passed = std::abs(*row.sigmas) <= most_sigmas && std::abs(deviation) <= admitted &&
-                 measured.standard_error <= admitted;
+    row.passed =
+        std::abs(*row.sigmas) <= most_sigmas && std::abs(deviation) <= admitted && measured.standard_error <= admitted;
     return row;
 }
 

@@ -36,7 +36,6 @@ struct Row {
 /// A row whose deviation must be at most `admitted`, in the unit of the quantity.
 Row exact_row(Claim claim, double reference, double measured, double admitted);
 
-
 /// A row whose deviation must be at most four standard errors (of measurement and reference together), and in the unit
 /// of the quantity at most `admitted`, as must be the measurement's own standard error.
 Row statistical_row(Claim claim, const Estimate& reference, const Estimate& measured, double admitted);

@@ -13,7 +13,7 @@ namespace carom::validate {
 
 namespace {
 
-constexpr double warm_up = 50;          // collisions per body
+constexpr double warm_up = 50;              // collisions per body
 constexpr double collisions_per_step = 0.5; // per body
 
 /// What is measured of one state.
@@ -106,11 +106,10 @@ void add_state_rows(const State& state, const Measured& measured, Findings& find
     if (state.gas.precision == Precision::single_precision) return;
     findings.curves.push_back({"state", "Z", Mark::points, {{packing, measured.z.value, measured.z.standard_error}}});
     const double percent = 100 / z;
-    findings.curves.push_back(
-        {"residual",
-         "Z",
-         Mark::points,
-         {{packing, (measured.z.value - z) * percent, measured.z.standard_error * percent}}});
+    findings.curves.push_back({"residual",
+                               "Z",
+                               Mark::points,
+                               {{packing, (measured.z.value - z) * percent, measured.z.standard_error * percent}}});
 }
 
 void add_speed_rows(const State& state, const Measured& measured, Findings& findings) {
@@ -148,8 +147,7 @@ Findings run_state(const State& state) {
     add_state_rows(state, measured, findings);
     if (!state.plots_structure) return findings;
     add_speed_rows(state, measured, findings);
-    findings.curves.push_back(
-        {"speeds", fmt::format("packing {}", state.gas.packing), Mark::points, measured.speeds});
+    findings.curves.push_back({"speeds", fmt::format("packing {}", state.gas.packing), Mark::points, measured.speeds});
     findings.curves.push_back({"g", fmt::format("packing {}", state.gas.packing), Mark::line, measured.g});
     const double chi = contact_value(state.gas.packing);
     findings.curves.push_back({"g", fmt::format("packing {}", state.gas.packing), Mark::points, {{1, chi}}});
@@ -181,9 +179,9 @@ Findings run_walls(double collisions) {
 }
 
 Findings run_reference_curves() {
-    return {.rows = {},
-            .curves = {{"state", "Z", Mark::line, equation_curve()},
-                       {"speeds", "Maxwell", Mark::line, maxwell_curve()}}};
+    return {
+        .rows = {},
+        .curves = {{"state", "Z", Mark::line, equation_curve()}, {"speeds", "Maxwell", Mark::line, maxwell_curve()}}};
 }
 
 } // namespace

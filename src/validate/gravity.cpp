@@ -1,10 +1,9 @@
 // A gas under gravity: hydrostatic balance, equal temperature at all heights, and the barometric law.
 
-#include "validate/cases.hpp"
-#include "validate/gas.hpp"
-
 #include "collision/portable_math.hpp"
 #include "scene/generators.hpp"
+#include "validate/cases.hpp"
+#include "validate/gas.hpp"
 
 #include <fmt/format.h>
 
@@ -15,13 +14,13 @@ namespace carom::validate {
 
 namespace {
 
-constexpr double radius = 0.5;        // m
-constexpr double side = 30;           // m, periodic along x and y
-constexpr double scale_height = 10;   // m: kT / (m g)
+constexpr double radius = 0.5;      // m
+constexpr double side = 30;         // m, periodic along x and y
+constexpr double scale_height = 10; // m: kT / (m g)
 constexpr double gravity = 1 / scale_height;
 constexpr std::size_t bodies = 800;
 constexpr double column = bodies / (side * side); // 1/m^2
-constexpr double dt = 0.5;            // s
+constexpr double dt = 0.5;                        // s
 
 World make_column(std::uint64_t seed) {
     scene::Random random(seed);
@@ -62,8 +61,8 @@ struct Layers {
     static constexpr int reach = 20;      // layers in a diameter
     std::vector<double> density;
 
-    /// Chemical potential by kT: exact in second order of the density; in higher ones that of a uniform fluid of the mean
-    /// density within a diameter.
+    /// Chemical potential by kT: exact in second order of the density; in higher ones that of a uniform fluid of the
+    /// mean density within a diameter.
     [[nodiscard]] double excess_potential(std::size_t layer) const {
         double sum = 0;
         for (int k = -reach; k <= reach; ++k) {
@@ -102,11 +101,11 @@ double balanced_height(double kt) {
 }
 
 struct Column {
-    Estimate height;           ///< mean height above contact with the floor, m
-    Estimate kinetic;          ///< J, per body and degree of freedom, twice
-    double vertical = 0;       ///< J, mean m v_z^2
-    double floor_force = 0;    ///< N
-    double virial = 0;         ///< J, per body, along z
+    Estimate height;            ///< mean height above contact with the floor, m
+    Estimate kinetic;           ///< J, per body and degree of freedom, twice
+    double vertical = 0;        ///< J, mean m v_z^2
+    double floor_force = 0;     ///< N
+    double virial = 0;          ///< J, per body, along z
     Estimate upper_temperature; ///< J, of bodies above one scale height
     double impacts = 0;
 };
@@ -148,12 +147,14 @@ Column measure(double duration) {
 
 Findings run(double duration, double admitted) {
     const Column c = measure(duration);
-    const std::string setup = fmt::format("{} elastic spheres on a floor, periodic {} m x {} m, scale height {} m, {:.2g} impacts",
-                                          bodies, side, side, scale_height, c.impacts);
+    const std::string setup =
+        fmt::format("{} elastic spheres on a floor, periodic {} m x {} m, scale height {} m, {:.2g} impacts", bodies,
+                    side, side, scale_height, c.impacts);
     const double weight = bodies * gravity;
     const double kt = c.kinetic.value;
     const double ratio = gravity * c.height.value / kt;
-    // Energy is fixed: where the gas is high it is cold. So the ratio's error is 1 + 2/3 ratio times that of the height.
+    // Energy is fixed: where the gas is high it is cold. So the ratio's error is 1 + 2/3 ratio times that of the
+    // height.
     const double ratio_error = gravity * c.height.standard_error / kt * (1 + 2.0 / 3 * ratio);
     const double balance = gravity * c.height.value;
     Findings findings;
@@ -165,8 +166,9 @@ Findings run(double duration, double admitted) {
                          "balance of weight and chemical potential, second virial term exact, two more by the "
                          "mean density around, 0.05 % for those (barometric law: 1)"},
                         {balanced_height(kt), 5e-4}, {ratio, ratio_error}, admitted),
-        statistical_row({"kT above one scale height, by kT", setup, "equal temperature at all heights; 1 - 16 / (15 N) at given "
-                                                                        "energy"},
+        statistical_row({"kT above one scale height, by kT", setup,
+                         "equal temperature at all heights; 1 - 16 / (15 N) at given "
+                         "energy"},
                         {1 - 16.0 / (15 * bodies), 0},
                         {c.upper_temperature.value / kt, c.upper_temperature.standard_error / kt}, admitted)};
     return findings;

@@ -66,11 +66,11 @@ Findings run_relaxation(std::size_t runs) {
     Findings findings;
     Curve reference{"a2", "independent computation", Mark::points, {}};
     for (const Relaxed& r : relaxed) {
-        findings.rows.push_back(statistical_row(
-            {fmt::format("a2 after {} collisions per body", r.collisions),
-             fmt::format("{} runs of 8000 spheres from equal speeds, packing 0.01", runs),
-             "independent event-driven computation, shared/VALIDATION.md 3"},
-            {r.a2, r.error}, mean_at(courses, r.collisions), 0.01));
+        findings.rows.push_back(
+            statistical_row({fmt::format("a2 after {} collisions per body", r.collisions),
+                             fmt::format("{} runs of 8000 spheres from equal speeds, packing 0.01", runs),
+                             "independent event-driven computation, shared/VALIDATION.md 3"},
+                            {r.a2, r.error}, mean_at(courses, r.collisions), 0.01));
         reference.points.push_back({r.collisions, r.a2, r.error});
     }
     Curve measured{"a2", "carom", Mark::line, {}};
@@ -91,8 +91,8 @@ double a2_of_cooling(double e) { return 16 * (1 - e) * (1 - 2 * e * e) / (81 - 1
 double haff_time(double e) { return 6 / ((1 - e * e) * (1 + 3 * a2_of_cooling(e) / 16)); }
 
 struct Cooling {
-    double slope = 0;           ///< of 1/sqrt(T) over time, 1/s, from 5 to 25 collisions per body
-    std::vector<Point> course;  ///< T over time
+    double slope = 0;          ///< of 1/sqrt(T) over time, 1/s, from 5 to 25 collisions per body
+    std::vector<Point> course; ///< T over time
 };
 
 /// Slope of the line through the points, by least squares.
@@ -138,8 +138,8 @@ Findings run_cooling(double e, std::size_t runs) {
     const double reference = haff_time(e);
     Findings findings;
     findings.rows.push_back(statistical_row(
-        {"Haff's law: omega_E tau", fmt::format("{} runs of 8000 spheres, e = {}, packing 0.01, 5 to 25 collisions per body",
-                                                runs, e),
+        {"Haff's law: omega_E tau",
+         fmt::format("{} runs of 8000 spheres, e = {}, packing 0.01, 5 to 25 collisions per body", runs, e),
          "kinetic theory: 6 / ((1 - e^2) (1 + 3 a2 / 16)), van Noije & Ernst 1998; 0.1 % for what it leaves out"},
         {reference, 1e-3 * reference}, mean_of(times), 0.01 * reference));
     Curve law{"haff", fmt::format("e = {}", e), Mark::line, {}};

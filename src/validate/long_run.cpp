@@ -1,9 +1,8 @@
 // Energy and momentum after very many impacts.
 
+#include "scene/overlap_search.hpp"
 #include "validate/cases.hpp"
 #include "validate/gas.hpp"
-
-#include "scene/overlap_search.hpp"
 
 #include <fmt/format.h>
 
@@ -24,17 +23,15 @@ Findings run(Precision precision, double impacts, double admitted_energy, double
     while (static_cast<double>(world.ledger().impacts) < impacts) world.step(dt);
     scene::OverlapSearch search(world);
     const char* in = precision == Precision::single_precision ? "single" : "double";
-    const std::string setup =
-        fmt::format("{} elastic spheres, packing 0.3, {:.2g} impacts, {} precision", gas.bodies(),
-                    static_cast<double>(world.ledger().impacts), in);
+    const std::string setup = fmt::format("{} elastic spheres, packing 0.3, {:.2g} impacts, {} precision", gas.bodies(),
+                                          static_cast<double>(world.ledger().impacts), in);
     Findings findings;
-    findings.rows = {
-        exact_row({"energy after by before, less 1", setup, "energy is kept"}, 0, world.energy().kinetic / start - 1,
-                  admitted_energy),
-        exact_row({"momentum gained, by sum of m |v|", setup, "momentum is kept"}, 0,
-                  length(world.momentum() - momentum) / momentum_scale, admitted_energy),
-        exact_row({"largest overlap, diameters", setup, "no body is inside another"}, 0, search.find(world).largest,
-                  admitted_gap)};
+    findings.rows = {exact_row({"energy after by before, less 1", setup, "energy is kept"}, 0,
+                               world.energy().kinetic / start - 1, admitted_energy),
+                     exact_row({"momentum gained, by sum of m |v|", setup, "momentum is kept"}, 0,
+                               length(world.momentum() - momentum) / momentum_scale, admitted_energy),
+                     exact_row({"largest overlap, diameters", setup, "no body is inside another"}, 0,
+                               search.find(world).largest, admitted_gap)};
     return findings;
 }
 

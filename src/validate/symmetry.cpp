@@ -1,10 +1,9 @@
 // What must not matter: the length of steps, mirrors, a quarter turn, any other turn, the direction of time.
 
-#include "validate/cases.hpp"
-#include "validate/gas.hpp"
-
 #include "collision/portable_math.hpp"
 #include "scene/random.hpp"
+#include "validate/cases.hpp"
+#include "validate/gas.hpp"
 
 #include <carom/world.hpp>
 
@@ -62,11 +61,11 @@ Row turned_row(const char* how, const Turn& turned) {
     for (std::size_t i = 0; i < a.position.size(); ++i) {
         if (turned(a.position[i]) != b.position[i] || turned(a.velocity[i]) != b.velocity[i]) ++different;
     }
-    return exact_row({"symmetry: bodies with other bits",
-                      fmt::format("216 bodies of many kinds in a box under gravity, {} impacts; {}",
-                                  one.ledger().impacts, how),
-                      "symmetry of the laws"},
-                     0, different, 0);
+    return exact_row(
+        {"symmetry: bodies with other bits",
+         fmt::format("216 bodies of many kinds in a box under gravity, {} impacts; {}", one.ledger().impacts, how),
+         "symmetry of the laws"},
+        0, different, 0);
 }
 
 Findings run_turns() {
@@ -191,11 +190,11 @@ Findings run_reversal(double packing, double least) {
     double reached = 0;
     while (distance_back(packing, (reached + 0.5) / 0.5 * step) <= small_error) reached += 0.5;
     Findings findings;
-    Row row = exact_row({"time reversal: collisions per body reached",
-                         fmt::format("1000 elastic spheres, packing {}; velocities reversed, every body back within 1e-7 m",
-                                     packing),
-                         fmt::format("at least {}: chaos multiplies 1e-15 m by 1e8 on the way", least)},
-                        least, reached, 0);
+    Row row = exact_row(
+        {"time reversal: collisions per body reached",
+         fmt::format("1000 elastic spheres, packing {}; velocities reversed, every body back within 1e-7 m", packing),
+         fmt::format("at least {}: chaos multiplies 1e-15 m by 1e8 on the way", least)},
+        least, reached, 0);
     row.passed = reached >= least;
     findings.rows.push_back(std::move(row));
     return findings;

@@ -1,8 +1,7 @@
 // Shots at plates of touching spheres: at any speed none passes that geometry says cannot.
 
-#include "validate/cases.hpp"
-
 #include "scene/random.hpp"
+#include "validate/cases.hpp"
 
 #include <carom/world.hpp>
 
@@ -83,12 +82,13 @@ Findings run_balls(std::size_t shots) {
     add_layer(plate, 0, 0);
     const Score score = fire_all(plate, 0.1548 * sphere_radius, sphere_radius, shots);
     Findings findings;
-    findings.rows.push_back(exact_row({"tunnelling: shots that pass",
-                                       fmt::format("{} balls of r > 0.1547 R at a layer of touching spheres, 0.1 to 1e6 "
-                                                   "thicknesses a step",
-                                                   score.shots),
-                                       "geometry: holes are 2 / sqrt(3) - 1 radii wide"},
-                                      0, static_cast<double>(score.passed), 0));
+    findings.rows.push_back(
+        exact_row({"tunnelling: shots that pass",
+                   fmt::format("{} balls of r > 0.1547 R at a layer of touching spheres, 0.1 to 1e6 "
+                               "thicknesses a step",
+                               score.shots),
+                   "geometry: holes are 2 / sqrt(3) - 1 radii wide"},
+                  0, static_cast<double>(score.passed), 0));
     return findings;
 }
 

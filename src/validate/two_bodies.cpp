@@ -129,10 +129,11 @@ Findings run() {
     };
     constexpr const char* what = "two bodies: largest error of time and velocities, by the largest speed";
     Findings found;
-    found.rows = {worst_row(all, what, "pair functions", error_of_functions<double>, 1e-12),
-                  worst_row(all_but(coincident), what, "in a world", error_of_world, 1e-9),
-                  worst_row(grazing, what, "a near-graze, 1e-12 deep, pair functions", error_of_functions<double>, 1e-9),
-                  worst_row(all_but(boosted), what, "pair functions, single precision", error_of_functions<float>, 1e-5)};
+    found.rows = {
+        worst_row(all, what, "pair functions", error_of_functions<double>, 1e-12),
+        worst_row(all_but(coincident), what, "in a world", error_of_world, 1e-9),
+        worst_row(grazing, what, "a near-graze, 1e-12 deep, pair functions", error_of_functions<double>, 1e-9),
+        worst_row(all_but(boosted), what, "pair functions, single precision", error_of_functions<float>, 1e-5)};
     return found;
 }
 
