@@ -8,12 +8,11 @@
 namespace carom {
 
 Profile::Profile(std::size_t axis, double low, double high, std::size_t slices, double area)
-    : axis_(axis), low_(low), area_(area) {
+    : axis_(axis), low_(low), width_((high - low) / static_cast<double>(slices)), area_(area) {
     observe::check_axis(axis);
     observe::check_interval(low, high);
     observe::check_count("slices", slices);
     observe::check_positive("area", area);
-    width_ = (high - low) / static_cast<double>(slices);
     sums_.resize(slices);
     density_.resize(slices);
     energy_.resize(slices);

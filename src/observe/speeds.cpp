@@ -7,10 +7,9 @@
 
 namespace carom {
 
-Speeds::Speeds(double most, std::size_t bins) {
+Speeds::Speeds(double most, std::size_t bins) : width_(most / static_cast<double>(bins)) {
     observe::check_positive("most", most);
     observe::check_count("bins", bins);
-    width_ = most / static_cast<double>(bins);
     histogram_.resize(bins);
     counts_.resize(bins);
 }

@@ -191,8 +191,7 @@ std::vector<Task> fluid_tasks(Extent extent) {
     const double impacts = full ? 1.2e7 : 1e6;
     const double admitted = full ? 1e-3 : 1e-2;
     const double seconds = impacts / 4e5;
-    std::vector<double> packings{0.05, 0.1, 0.2, 0.3, 0.4, 0.45};
-    if (full) packings = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45};
+    constexpr std::array packings{0.05, 0.1, 0.2, 0.3, 0.4, 0.45};
     std::vector<Task> tasks{{0, run_reference_curves}};
     for (std::size_t i = 0; i < packings.size(); ++i) {
         const State state{.gas = {.packing = packings[i], .seed = 100 + i},

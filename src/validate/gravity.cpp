@@ -178,9 +178,9 @@ Findings run(double duration, double admitted) {
 
 std::vector<Task> gravity_tasks(Extent extent) {
     const bool full = extent == Extent::full;
-    const double duration = full ? 200'000 : 10'000;
+    const double duration = full ? 100'000 : 10'000;
     const double admitted = full ? 5e-3 : 2e-2;
-    return {{full ? 80.0 : 8.0, [duration, admitted] { return run(duration, admitted); }}};
+    return {{full ? 60.0 : 6.0, [duration, admitted] { return run(duration, admitted); }}};
 }
 
 } // namespace carom::validate

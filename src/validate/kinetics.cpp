@@ -56,12 +56,14 @@ double interpolated(const std::vector<Point>& course, double x) {
 
 Estimate mean_at(const std::vector<std::vector<Point>>& courses, double x) {
     std::vector<double> values;
+    values.reserve(courses.size());
     for (const std::vector<Point>& course : courses) values.push_back(interpolated(course, x));
     return mean_of(values);
 }
 
 Findings run_relaxation(std::size_t runs) {
     std::vector<std::vector<Point>> courses;
+    courses.reserve(runs);
     for (std::size_t i = 0; i < runs; ++i) courses.push_back(relax(1000 + i));
     Findings findings;
     Curve reference{"a2", "independent computation", Mark::points, {}};
@@ -157,12 +159,12 @@ Findings run_cooling(double e, std::size_t runs) {
 } // namespace
 
 std::vector<Task> relaxation_tasks(Extent extent) {
-    const std::size_t runs = extent == Extent::full ? 128 : 24;
+    const std::size_t runs = extent == Extent::full ? 64 : 24;
     return {{0.3 * static_cast<double>(runs), [runs] { return run_relaxation(runs); }}};
 }
 
 std::vector<Task> cooling_tasks(Extent extent) {
-    const std::size_t runs = extent == Extent::full ? 64 : 10;
+    const std::size_t runs = extent == Extent::full ? 32 : 10;
     std::vector<Task> tasks;
     for (const double e : {0.95, 0.9, 0.8}) {
         tasks.push_back({0.7 * static_cast<double>(runs), [e, runs] { return run_cooling(e, runs); }});

@@ -26,11 +26,11 @@ struct Work {
     const Progress& progress;
 
     std::size_t start_next() {
-        const std::lock_guard lock(mutex);
+        const std::scoped_lock lock(mutex);
         return order[started++];
     }
     void finish() {
-        const std::lock_guard lock(mutex);
+        const std::scoped_lock lock(mutex);
         progress(++done, tasks.size());
     }
 };
