@@ -190,13 +190,13 @@ Findings run_reversal(double packing, double collisions) {
     double reached = 0;
     while (distance_back(packing, (reached + 0.5) * free_time) <= small_error) reached += 0.5;
     Findings findings;
-    findings.rows.push_back(
-        exact_row({"time reversal: largest distance from the start, m",
-                   fmt::format("1000 elastic spheres, packing {}; {} collisions per body there, and as many back; the limit "
-                               "of 1e-7 m was kept up to {}",
-                               packing, collisions, reached),
-                   "mechanics runs backward, to rounding times chaos"},
-                  0, distance_back(packing, collisions * free_time), small_error));
+    findings.rows.push_back(exact_row(
+        {"time reversal: largest distance from the start, m",
+         fmt::format("1000 elastic spheres, packing {}; {} collisions per body there, and as many back; the limit "
+                     "of 1e-7 m was kept up to {}",
+                     packing, collisions, reached),
+         "mechanics runs backward, to rounding times chaos"},
+        0, distance_back(packing, collisions * free_time), small_error));
     return findings;
 }
 

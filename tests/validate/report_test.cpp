@@ -33,7 +33,7 @@ TEST(Rows, StatisticalOnesNeedFewStandardErrorsAndSmallOnes) {
     EXPECT_TRUE(row.passed);
     EXPECT_DOUBLE_EQ(row.standard_error, 0.05);
     EXPECT_NEAR(*row.sigmas, 3, 1e-12);
-    EXPECT_FALSE(statistical_row(claim, reference, {10.21, 0.04}, 1).passed);  // 4.2 standard errors
+    EXPECT_FALSE(statistical_row(claim, reference, {10.21, 0.04}, 1).passed);   // 4.2 standard errors
     EXPECT_FALSE(statistical_row(claim, reference, {10.15, 0.04}, 0.1).passed); // more than it admits
     EXPECT_FALSE(statistical_row(claim, reference, {10.01, 0.3}, 0.2).passed);  // not sure enough
     EXPECT_FALSE(statistical_row(claim, reference, {.value = 10}, 0.2).passed); // not sure at all
@@ -84,10 +84,9 @@ TEST(Theory, EquationOfStateAndCollisionRate) {
     struct Figure {
         double packing, z, rate, simulated, error;
     };
-    for (const Figure& f : {Figure{0.05, 1.227485, 0.770069, 1.227523, 3.0e-5},
-                            Figure{0.10, 1.521647, 1.765845, 1.521708, 8.5e-5},
-                            Figure{0.20, 2.409403, 4.771023, 2.40967, 2.0e-4},
-                            Figure{0.40, 6.945460, 20.126198, 6.9471, 1.7e-3}}) {
+    for (const Figure& f :
+         {Figure{0.05, 1.227485, 0.770069, 1.227523, 3.0e-5}, Figure{0.10, 1.521647, 1.765845, 1.521708, 8.5e-5},
+          Figure{0.20, 2.409403, 4.771023, 2.40967, 2.0e-4}, Figure{0.40, 6.945460, 20.126198, 6.9471, 1.7e-3}}) {
         EXPECT_NEAR(compressibility(f.packing), f.z, 6e-7);
         EXPECT_NEAR(collision_rate(f.packing), f.rate, 6e-7);
         EXPECT_NEAR(compressibility(f.packing), f.simulated, 4 * f.error);
