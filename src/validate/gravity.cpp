@@ -80,24 +80,51 @@ struct Layers {
     }
 };
 
-/// The mean height above the floor's plane of contact, by kT / (m g): where chemical potential and weight balance at
-/// every height.
-double balanced_height(double kt) {
-    const auto height = [](std::size_t layer) { return (static_cast<double>(layer) + 0.5) * Layers::width; };
+/// m above the floor's plane of contact, the middle of a layer.
+double height_of(std::size_t layer) { return (static_cast<double>(layer) + 0.5) * Layers::width; }
+
+/// Where chemical potential and weight balance at every height; kT in J.
+Layers balanced_layers(double kt) {
     Layers layers{std::vector<double>(static_cast<std::size_t>(15 * scale_height / Layers::width))};
     std::vector<double> potential(layers.density.size(), 0);
     for (int iteration = 0; iteration < 60; ++iteration) {
         for (std::size_t i = 0; i < potential.size(); ++i) {
-            layers.density[i] = detail::exp(-gravity * height(i) / kt - potential[i]);
+            layers.density[i] = detail::exp(-gravity * height_of(i) / kt - potential[i]);
         }
         layers.normalise();
         for (std::size_t i = 0; i < potential.size(); ++i) {
             potential[i] = 0.5 * (potential[i] + layers.excess_potential(i));
         }
     }
+    return layers;
+}
+
+/// m
+double mean_height(const Layers& layers) {
     double mean = 0;
-    for (std::size_t i = 0; i < potential.size(); ++i) mean += layers.density[i] * height(i) * Layers::width / column;
-    return mean * gravity / kt;
+    for (std::size_t i = 0; i < layers.density.size(); ++i) {
+        mean += layers.density[i] * height_of(i) * Layers::width / column;
+    }
+    return mean;
+}
+
+/// The curves of the plot: packing over height, in balance, without the size of the bodies, and measured.
+std::vector<Curve> height_curves(const Layers& layers, double kt, const Profile& measured) {
+    constexpr double packing = std::numbers::pi / 6; // of one body in a cubic metre
+    Curve balance{"heights", "hard spheres", Mark::line, {}};
+    Curve points{"heights", "points: n exp(-m g z / kT)", Mark::line, {}};
+    Curve carom{"heights", "carom", Mark::points, {}};
+    for (std::size_t i = 0; i < layers.density.size() && height_of(i) < 4 * scale_height; i += 4) {
+        const double z = height_of(i);
+        balance.points.push_back({z, packing * layers.density[i]});
+        points.points.push_back({z, packing * column * gravity / kt * detail::exp(-gravity * z / kt)});
+    }
+    for (std::size_t slice = 0; slice < measured.slices(); ++slice) {
+        const Estimate density = measured.density(slice);
+        carom.points.push_back(
+            {measured.position(slice) - radius, packing * density.value, packing * density.standard_error});
+    }
+    return {std::move(balance), std::move(points), std::move(carom)};
 }
 
 struct Column {
@@ -107,6 +134,7 @@ struct Column {
     double floor_force = 0;     ///< N
     double virial = 0;          ///< J, per body, along z
     Estimate upper_temperature; ///< J, of bodies above one scale height
+    Profile profile;            ///< from the floor up
     double impacts = 0;
 };
 
@@ -117,6 +145,7 @@ Column measure(double duration) {
     BlockAverage height;
     BlockAverage kinetic;
     BlockAverage vertical;
+    Profile profile(2, radius, radius + 4 * scale_height, 40, side * side);
     Profile upper(2, scale_height, 100 * scale_height, 1, side * side);
     Sample sample;
     const double begin = world.time();
@@ -125,6 +154,7 @@ Column measure(double duration) {
         impacts.observe(world);
         sample.read(world);
         upper.observe(sample);
+        profile.observe(sample);
         double z = 0;
         double squares = 0;
         for (std::size_t i = 0; i < bodies; ++i) {
@@ -142,6 +172,7 @@ Column measure(double duration) {
             .floor_force = impacts.face_force(4).value,
             .virial = impacts.virial_rate(2).value / bodies,
             .upper_temperature = upper.temperature(0),
+            .profile = std::move(profile),
             .impacts = static_cast<double>(impacts.count())};
 }
 
@@ -157,6 +188,7 @@ Findings run(double duration, double admitted) {
     // height.
     const double ratio_error = gravity * c.height.standard_error / kt * (1 + 2.0 / 3 * ratio);
     const double balance = gravity * c.height.value;
+    const Layers layers = balanced_layers(kt);
     Findings findings;
     findings.rows = {
         exact_row({"force on the floor, N", setup, "weight: N m g"}, weight, c.floor_force, 1e-3 * weight),
@@ -165,12 +197,13 @@ Findings run(double duration, double admitted) {
         statistical_row({"mean height by kT / (m g)", setup,
                          "balance of weight and chemical potential, second virial term exact, two more by the "
                          "mean density around, 0.05 % for those (barometric law: 1)"},
-                        {balanced_height(kt), 5e-4}, {ratio, ratio_error}, admitted),
+                        {gravity * mean_height(layers) / kt, 5e-4}, {ratio, ratio_error}, admitted),
         statistical_row({"kT above one scale height, by kT", setup,
                          "equal temperature at all heights; 1 - 16 / (15 N) at given "
                          "energy"},
                         {1 - 16.0 / (15 * bodies), 0},
                         {c.upper_temperature.value / kt, c.upper_temperature.standard_error / kt}, admitted)};
+    findings.curves = height_curves(layers, kt, c.profile);
     return findings;
 }
 

@@ -25,7 +25,7 @@ constexpr std::string_view head = R"(<!DOCTYPE html>
 body{margin:0 auto;max-width:1180px;padding:24px;background:var(--paper);color:var(--soft);
 font:15px/1.5 "DejaVu Sans","Helvetica Neue",Arial,sans-serif}
 h1,h2,th,b{color:var(--ink)}h1{font-size:26px;margin:8px 0}h2{font-size:18px;margin:36px 0 8px}
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(420px,1fr));gap:24px}
+.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(420px,1fr));gap:24px}
 figure{margin:0}figure b{display:block}figcaption{font-size:13px}
 svg{width:100%;height:auto}svg text{font-size:13px;fill:var(--soft)}svg .head{font-weight:bold;fill:var(--ink)}
 .right{text-anchor:end}.middle{text-anchor:middle}
@@ -36,7 +36,7 @@ svg{width:100%;height:auto}svg text{font-size:13px;fill:var(--soft)}svg .head{fo
 .dot.c4{fill:var(--c4)}
 .wide{overflow-x:auto}table{border-collapse:collapse;width:100%;font-size:13px}
 th,td{padding:5px 8px;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
-td.number{text-align:right;white-space:nowrap}.pass{color:var(--good)}.fail{color:var(--bad);font-weight:bold}
+td:nth-child(2),td:nth-child(4){min-width:180px}td.number{text-align:right;white-space:nowrap}.pass{color:var(--good)}.fail{color:var(--bad);font-weight:bold}
 </style>
 </head>
 <body>
@@ -66,9 +66,8 @@ std::string table_row(const Row& row) {
                        "<td class=\"{}\">{}</td></tr>\n",
                        scene::escaped(row.claim.name), scene::escaped(row.claim.setup), number_text(row.reference),
                        scene::escaped(row.claim.source), measured_text(row),
-                       row.sigmas ? fmt::format("{:+.1f}", *row.sigmas) : "",
-                       percent ? fmt::format("{:+.2g}", *percent) : "", admitted, row.passed ? "pass" : "fail",
-                       row.passed ? "pass" : "fail");
+                       row.sigmas ? fmt::format("{:+.1f}", *row.sigmas) : "", percent ? signed_text(*percent) : "",
+                       admitted, row.passed ? "pass" : "fail", row.passed ? "pass" : "fail");
 }
 
 std::string table_of(const Report& report) {

@@ -35,6 +35,9 @@ constexpr std::array styles{
               "collisions per body", "a2"},
     PlotStyle{"haff", "Cooling by inelastic impacts", "Lines: Haff's law. Dots: carom, one run each.",
               "time, diameters / initial thermal speed", "T / T(0)", true},
+    PlotStyle{"heights", "A gas under gravity",
+              "Lines: balance of weight and pressure, with and without the size of the spheres. Dots: carom.",
+              "height, diameters", "packing", true},
     PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n. Dots: carom.", "bounce", "height / H", true},
 };
 

@@ -75,7 +75,7 @@ nlohmann::ordered_json json_of(const Row& row) {
 std::string deviation_text(const Row& row) {
     std::string text;
     if (row.sigmas) text += fmt::format("{:+.1f} standard errors, ", *row.sigmas);
-    if (const auto percent = row.percent()) text += fmt::format("{:+.2g} %, ", *percent);
+    if (const auto percent = row.percent()) text += signed_text(*percent) + " %, ";
     return text + fmt::format("admitted {}", row.admitted == 0 ? "none" : number_text(row.admitted));
 }
 
@@ -129,6 +129,8 @@ std::string number_text(double value) {
     if (value != 0 && std::abs(value) < 1e-3) return fmt::format("{:.1e}", value);
     return fmt::format("{:.7g}", value);
 }
+
+std::string signed_text(double value) { return value == 0 ? "0" : fmt::format("{:+.2g}", value); }
 
 std::string to_text(const Report& report) {
     std::string text;

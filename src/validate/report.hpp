@@ -32,7 +32,9 @@ std::string to_text(const Report& report);
 /// As JSON for programs: docs/command_line.md lists the keys.
 std::string to_json(const Report& report);
 
-/// Six significant digits; "1.0e-13".
+/// Seven significant digits; two of what is smaller than 0.001: "1.0e-13".
 std::string number_text(double value);
+/// "+0.12", "-3e-10", "0"
+std::string signed_text(double value);
 
 } // namespace carom::validate
