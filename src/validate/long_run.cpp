@@ -13,7 +13,7 @@ namespace carom::validate {
 namespace {
 
 Findings run(Precision precision, double impacts, double admitted_energy, double admitted_gap) {
-    GasSetup gas{.packing = 0.3, .per_axis = 20, .seed = 71, .precision = precision};
+    GasSetup gas{.packing = 0.3, .per_axis = 22, .seed = 71, .precision = precision};
     World world = make_gas(gas);
     world.set_recording(false);
     const double start = world.energy().kinetic;
