@@ -1,5 +1,6 @@
 #include "observe/near_pairs.hpp"
 
+#include "collision/portable_math.hpp"
 #include "observe/checks.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ void NearPairs::lay_axis(const Sample& sample, std::size_t k) {
     }
     axis.size = high > axis.low ? high - axis.low : reach_;
     // About as many cells as bodies at most: visiting empty ones costs as well.
-    const double most = 1 + std::cbrt(static_cast<double>(sample.position.size()));
+    const double most = 1 + detail::pow(static_cast<double>(sample.position.size()), 1.0 / 3);
     axis.cells = static_cast<std::size_t>(std::max(1.0, std::min(axis.size / reach_, most)));
     for (std::size_t place = 0; place < axis.cells; ++place) {
         axis.beside.push_back(beside(place, axis.cells, axis.is_periodic));

@@ -46,7 +46,9 @@ Estimate mean_free_path(const Speeds& speeds, const ImpactStatistics& impacts) {
     const Estimate rate = impacts.collision_rate();
     if (!(rate.value > 0)) return {.value = std::numeric_limits<double>::infinity()};
     const double path = speed.value / rate.value;
-    return {path, path * std::hypot(speed.standard_error / speed.value, rate.standard_error / rate.value)};
+    const double of_speed = speed.standard_error / speed.value;
+    const double of_rate = rate.standard_error / rate.value;
+    return {path, path * std::sqrt(of_speed * of_speed + of_rate * of_rate)};
 }
 
 } // namespace carom

@@ -1,5 +1,6 @@
 #include "scene/picture.hpp"
 
+#include "collision/portable_math.hpp"
 #include "scene/digit_groups.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ double round_up(double value) {
 }
 
 double Scale::at(double value) const {
-    const double part = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+    const double part = logarithmic ? detail::log(value / low) / detail::log(high / low) : (value - low) / (high - low);
     return from + part * (to - from);
 }
 

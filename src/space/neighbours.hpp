@@ -144,6 +144,8 @@ private:
         Index other = no_index;
     };
     struct Part {
+        Part() { meeting.reserve(BallSearcher::few); }
+
         std::vector<Index> lists;
         std::size_t used = 0;
         BallSearcher searcher;

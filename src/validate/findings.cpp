@@ -24,7 +24,8 @@ Row exact_row(Claim claim, double reference, double measured, double admitted) {
 
 Row statistical_row(Claim claim, const Estimate& reference, const Estimate& measured, double admitted) {
     Row row{.claim = std::move(claim), .reference = reference.value, .measured = measured.value, .admitted = admitted};
-    row.standard_error = std::hypot(reference.standard_error, measured.standard_error);
+    row.standard_error = std::sqrt(reference.standard_error * reference.standard_error +
+                                   measured.standard_error * measured.standard_error);
     const double deviation = measured.value - reference.value;
     row.sigmas = deviation / row.standard_error;
     row.passed =

@@ -1,5 +1,6 @@
 // The hard-sphere fluid in equilibrium: equation of state, collision rate, speeds, structure.
 
+#include "collision/portable_math.hpp"
 #include "validate/cases.hpp"
 #include "validate/gas.hpp"
 
@@ -130,7 +131,7 @@ std::vector<Point> maxwell_curve() {
     std::vector<Point> points;
     for (int i = 0; i <= 100; ++i) {
         const double v = 0.05 * i;
-        points.push_back({v, std::sqrt(2 / std::numbers::pi) * v * v * std::exp(-v * v / 2)});
+        points.push_back({v, std::sqrt(2 / std::numbers::pi) * v * v * detail::exp(-v * v / 2)});
     }
     return points;
 }
