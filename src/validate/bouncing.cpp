@@ -73,8 +73,8 @@ Findings run_zeno(double e, Precision precision, double admitted) {
                    "sqrt(2 H / g) (1 + e) / (1 - e)"},
                   zeno_time(e), bounces.rests ? limit : std::numeric_limits<double>::infinity(), admitted));
     if (precision == Precision::single_precision) return findings;
-    Curve measured{"apexes", fmt::format("e = {}", e), Mark::points, {}};
-    Curve law{"apexes", fmt::format("e = {}", e), Mark::line, {}};
+    Curve measured{"apexes", fmt::format("{}", e), Mark::points, {}};
+    Curve law{"apexes", fmt::format("{}", e), Mark::line, {}};
     for (std::size_t n = 0; n < std::min<std::size_t>(bounces.impacts.size(), 20); ++n) {
         const auto number = static_cast<double>(n + 1);
         const double height = apex_after(bounces.impacts[n], e);

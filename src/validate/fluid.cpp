@@ -37,10 +37,11 @@ struct Measured {
 
 std::vector<Point> curve_of(const RadialDistribution& radial) {
     std::vector<Point> points;
+    const double half_width = radial.distance(0);
     for (std::size_t i = 0; i < radial.shells(); ++i) {
         const Estimate g = radial.g(i);
         // The shell in which spheres touch is empty in part.
-        if (radial.distance(i) > 1) points.push_back({radial.distance(i), g.value, g.standard_error});
+        if (radial.distance(i) - half_width > 1) points.push_back({radial.distance(i), g.value, g.standard_error});
     }
     return points;
 }

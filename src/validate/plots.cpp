@@ -38,7 +38,7 @@ constexpr std::array styles{
     PlotStyle{"heights", "A gas under gravity",
               "Lines: balance of weight and pressure, with and without the size of the spheres. Dots: carom.",
               "height, diameters", "packing", true},
-    PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n. Dots: carom.", "bounce", "height / H", true},
+    PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n for several e. Dots: carom.", "bounce", "h / H", true},
 };
 
 struct Range {

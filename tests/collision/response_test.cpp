@@ -316,8 +316,8 @@ TEST(ContactNormal, IsNotTooLongOnAverage) {
             sum += length_squared(widened(contact_normal(size * random.on_sphere(), Vec3{}))) - 1;
         }
         const double mean = static_cast<double>(sum / trials);
-        std::printf("figure: normals at a contact distance of %g m: %.2g too long on average (at most 1e-17)\n", distance,
-                    mean / 2);
+        std::printf("figure: normals at a contact distance of %g m: %.2g too long on average (at most 1e-17)\n",
+                    distance, mean / 2);
         EXPECT_LE(std::abs(mean / 2), 1e-17) << distance;
     }
 }
