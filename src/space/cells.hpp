@@ -22,14 +22,11 @@ namespace carom::core {
 /// Searches among the balls of Cells, on one thread: the functions of the instruction set in use, and buffers.
 class BallSearcher {
 public:
-    /// As many there is room for from the start: what a body may meet where bodies crowd for once.
-    static constexpr std::size_t few = 512;
-
     BallSearcher() {
+        constexpr std::size_t few = 256;
         runs_.reserve(few);
-        other_levels_.reserve(few);
-        around_.reserve(few);
-        apart_.reserve(few);
+        constexpr std::size_t few_levels = 16;
+        other_levels_.reserve(few_levels);
     }
 
     /// To be called when the balls or the instruction set may have changed.

@@ -144,8 +144,6 @@ private:
         Index other = no_index;
     };
     struct Part {
-        Part() { meeting.reserve(BallSearcher::few); }
-
         std::vector<Index> lists;
         std::size_t used = 0;
         BallSearcher searcher;
