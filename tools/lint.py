@@ -34,10 +34,12 @@ LAYERS = {
     "src/contact": ("collision", "space"),
     "src/impact": ("collision", "space", "contact"),
     "src/world": ("collision", "space", "contact", "impact"),
+    "src/observe": ("collision",),
     "src/scene": ("collision",),
-    "apps/carom": ("scene",),
+    "src/validate": ("collision", "scene"),
+    "apps/carom": ("scene", "validate"),
 }
-SRC_FOLDERS = ("collision", "space", "contact", "impact", "world", "scene")
+SRC_FOLDERS = ("collision", "space", "contact", "impact", "world", "observe", "scene", "validate")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\[[^\]]*\]\(([^)#\s]+)(?:#[^)]*)?\)")
 

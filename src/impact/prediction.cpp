@@ -48,7 +48,12 @@ double immediate(const Meeting& m) {
 }
 
 /// How far ahead of `start` to look, s: everything that counts up to `end` once added to `start` and rounded.
-double horizon_of(double start, double end) { return (end - start) + 4 * std::numeric_limits<double>::epsilon() * end; }
+double horizon_of(double start, double end) {
+#ifdef CAROM_DEFECT_SECOND_IMPACT_DROPPED // only in tests/defects
+    if (start > 0) return 0;
+#endif
+    return (end - start) + 4 * std::numeric_limits<double>::epsilon() * end;
+}
 
 /// The pair's next impact for one periodic image, s after `start`.
 template <class Real>

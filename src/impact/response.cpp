@@ -2,6 +2,10 @@
 
 #include <carom/collision.hpp>
 
+#ifdef CAROM_DEFECT_RESPONSE // only in tests/defects
+#    include CAROM_DEFECT_RESPONSE
+#endif
+
 namespace carom::core {
 
 namespace {

@@ -1,6 +1,6 @@
 #include "scene/energy_plot.hpp"
 
-#include "scene/digit_groups.hpp"
+#include "scene/picture.hpp"
 
 #include <fmt/format.h>
 
@@ -69,137 +69,6 @@ Unit time_unit_for(double duration) {
     return duration >= 1 ? Unit{1, "s"} : unit_for(duration, "s");
 }
 
-/// The round number (1, 2 or 5 times a power of ten) next above `value` > 0.
-double round_up(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(value)));
-    for (const double digit : {1.0, 2.0, 5.0}) {
-        if (value <= digit * power * (1 + 1e-9)) return digit * power;
-    }
-    return 10 * power;
-}
-
-/// Maps values of one axis, in its unit, to the picture.
-struct Scale {
-    double low = 0;
-    double high = 1;
-    double tick = 1;
-    double from = 0; ///< where `low` lies
-    double to = 1;   ///< where `high` lies
-
-    [[nodiscard]] double at(double value) const { return from + (value - low) / (high - low) * (to - from); }
-};
-
-/// A scale with round ends that holds `low` to `high` and has about `ticks` of them.
-Scale round_scale(double low, double high, int ticks, double from, double to) {
-    if (!(high > low)) high = low + 1;
-    const double tick = round_up((high - low) / ticks);
-    return {std::floor(low / tick + 1e-9) * tick, std::ceil(high / tick - 1e-9) * tick, tick, from, to};
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '&')
-            result += "&amp;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            result += c;
-    }
-    return result;
-}
-
-/// "31 415" with narrow spaces; `decimals` behind the point.
-std::string number_text(double value, int decimals) {
-    const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
-    const std::size_t point = std::min(text.find('.'), text.size());
-    return fmt::format("{}{}{}", value < 0 ? "\u2212" : "", group_digits(text.substr(0, point), "\u202f"),
-                       text.substr(point));
-}
-
-/// About how wide a text in UTF-8 is.
-double text_width(std::string_view text) {
-    const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; };
-    return 7.6 * static_cast<double>(std::count_if(text.begin(), text.end(), is_first_byte));
-}
-
-class Picture {
-public:
-    Picture() {
-        add(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">)", width,
-            height);
-        text_ += '\n';
-        text_ += style;
-        add(R"(<rect class="paper" width="{}" height="{}"/>)", width, height);
-        text_ += '\n';
-    }
-
-    void text(double x, double y, std::string_view classes, std::string_view markup) {
-        add("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", classes, x, y, markup);
-    }
-    void line(std::string_view classes, double x1, double y1, double x2, double y2) {
-        add("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", classes, x1, y1, x2, y2);
-    }
-    void bar(std::string_view classes, double x, double y, double bar_width, double bar_height) {
-        add("<rect class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n", classes, x, y,
-            bar_width, bar_height);
-    }
-    void curve(std::string_view classes, const std::vector<std::array<double, 2>>& points) {
-        add("<path class=\"line {}\" d=\"", classes);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            add("{}{:.2f},{:.2f}", i == 0 ? "M" : i == 1 ? "L" : " ", points[i][0], points[i][1]);
-        }
-        text_ += "\"/>\n";
-    }
-    /// Names a curve or bar in a row that grows to the left; returns where the next entry ends.
-    double legend(double end, double y, std::string_view classes, std::string_view name, bool is_bar) {
-        const double sample = is_bar ? 13 : 26;
-        const double start = end - text_width(name) - sample - 7;
-        if (is_bar)
-            bar(classes, start, y - 11, sample, 13);
-        else
-            line(fmt::format("line {}", classes), start, y - 4.5, start + sample, y - 4.5);
-        text(start + sample + 7, y, "left", name);
-        return start - 22;
-    }
-    std::string take() {
-        text_ += "</svg>\n";
-        return std::move(text_);
-    }
-
-private:
-    template <class... Values>
-    void add(fmt::format_string<Values...> format, Values&&... values) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
-    }
-
-    std::string text_;
-};
-
-int decimals_of(double tick) { return std::max(0, -static_cast<int>(std::floor(std::log10(tick) + 1e-9))); }
-
-void draw_y_axis(Picture& picture, const Scale& y) {
-    const auto ticks = static_cast<int>(std::lround((y.high - y.low) / y.tick));
-    for (int i = 0; i <= ticks; ++i) {
-        const double value = y.low + i * y.tick;
-        const bool is_zero = std::abs(value) < 1e-6 * y.tick;
-        picture.line(is_zero ? "axis" : "rule", left, y.at(value), right, y.at(value));
-        picture.text(left - 8, y.at(value) + 4.5, "right", number_text(is_zero ? 0 : value, decimals_of(y.tick)));
-    }
-}
-
-void draw_x_axis(Picture& picture, const Scale& x, double top, double bottom, bool with_numbers) {
-    const auto first = static_cast<int>(std::ceil(x.low / x.tick - 1e-9));
-    const auto last = static_cast<int>(std::floor(x.high / x.tick + 1e-9));
-    for (int i = first; i <= last; ++i) {
-        const double at = x.at(i * x.tick);
-        picture.line("rule", at, top, at, bottom);
-        if (with_numbers) picture.text(at, bottom + 20, "middle", number_text(i * x.tick, decimals_of(x.tick)));
-    }
-}
-
 /// A curve of one value of the rows: of the rows that share a column of the picture the least and the greatest.
 template <class Value>
 std::vector<std::array<double, 2>> curve_of(std::span<const TimelineRow> rows, const Scale& x, double time_unit,
@@ -243,7 +112,7 @@ void draw_energies(Picture& picture, std::span<const TimelineRow> rows, const Ti
     // A little room above, so that a curve does not hide in the upper edge.
     const Scale y = round_scale(low / unit.size, high / unit.size * 1.01, 7, bottom, top);
     draw_x_axis(picture, time.scale, top, bottom, false);
-    draw_y_axis(picture, y);
+    draw_y_axis(picture, y, left, right);
     const auto draw = [&](std::string_view classes, const auto& value) {
         picture.curve(classes, curve_of(rows, time.scale, time.unit.size, y, unit.size, value));
     };
@@ -300,7 +169,7 @@ void draw_impacts(Picture& picture, std::span<const TimelineRow> rows, const Tim
     for (const Bin& bin : bins) most = std::max(most, bin.pairs + bin.walls);
     const Scale y = round_scale(0, static_cast<double>(most), most < 3 ? static_cast<int>(most) : 3, bottom, top);
     draw_x_axis(picture, time.scale, top, bottom, true);
-    draw_y_axis(picture, y);
+    draw_y_axis(picture, y, left, right);
     for (const Bin& bin : bins) {
         const double x = time.scale.at(bin.begin / time.unit.size);
         const double bar_width = std::max(0.5, time.scale.at(bin.end / time.unit.size) - x - 0.6);
@@ -331,7 +200,7 @@ std::vector<TimelineRow> finite_rows(std::span<const TimelineRow> rows) {
 
 std::string energy_plot(std::span<const TimelineRow> all_rows, std::string_view title, std::string_view subtitle) {
     const std::vector<TimelineRow> rows = finite_rows(all_rows);
-    Picture picture;
+    Picture picture(width, height, style);
     picture.text(left - 60, 38, "title", escaped(title));
     picture.text(left - 60, 60, "", escaped(subtitle));
     if (rows.size() < 2) {

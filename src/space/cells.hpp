@@ -25,6 +25,8 @@ public:
     BallSearcher() {
         constexpr std::size_t few = 256;
         runs_.reserve(few);
+        constexpr std::size_t few_levels = 16;
+        other_levels_.reserve(few_levels);
     }
 
     /// To be called when the balls or the instruction set may have changed.

@@ -51,7 +51,7 @@ class Documentation(CliTest):
         self.assertEqual(self.json("run", "faces.toml")["contacts"], 1)
 
     def test_every_option_is_described(self):
-        for command in ("run", "bench", "info", "diff"):
+        for command in ("run", "bench", "validate", "info", "diff"):
             for option in set(re.findall(r"--[a-z-]+", self.carom(command, "--help")[0])) - {"--help"}:
                 self.assertTrue(f"`{option}" in PAGE, f"{command} {option}")
 
@@ -60,6 +60,7 @@ class Documentation(CliTest):
         bench = self.json("bench", "gas", "--bodies", 10, "--steps", 1, "--warmup", 0)
         self.assertEqual(set(keys_of_table("Figures")), set(run) | set(bench))
         self.assertEqual(set(keys_of_table("Facts")), set(self.json("info")))
+        self.assertEqual(set(keys_of_table("Rows")), set(self.json("validate", "--only", "drag")["rows"][0]))
         self.assertEqual(json.loads(self.read("out", "summary.json")), run)
 
     def test_columns(self):
