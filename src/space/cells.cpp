@@ -299,6 +299,8 @@ void BallSearcher::View::reserve(std::size_t balls) {
     body.resize(room);
 }
 
+void BallSearcher::get_ready() { apart_.reserve(1); }
+
 void Cells::find_meeting(const Ball& ball, Index self, BallSearcher& searcher, std::vector<Index>& found) const {
     std::vector<Run>& runs = searcher.runs_;
     runs.clear();

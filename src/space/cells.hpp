@@ -29,6 +29,8 @@ public:
         other_levels_.reserve(few_levels);
     }
 
+    /// Has room from now on for what lies around most balls.
+    void get_ready();
     /// To be called when the balls or the instruction set may have changed.
     void start() {
         packing_ = ball_packing();

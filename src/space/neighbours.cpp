@@ -30,6 +30,18 @@ std::size_t Neighbours::found() const {
     return sum - std::min(sum, known_.size());
 }
 
+void Neighbours::get_ready(std::size_t parts) {
+    constexpr std::size_t spare = 4;
+    constexpr std::size_t many_entries = 512;
+    if (parts <= ready_) return;
+    const std::size_t wanted = std::min(2 * parts + spare, parts_of(batch, link_grain));
+    for (; ready_ < wanted; ++ready_) {
+        parts_[ready_].searcher.get_ready();
+        parts_[ready_].meeting.reserve(many_entries);
+        parts_[ready_].meetings.reserve(few_entries * link_grain);
+    }
+}
+
 void Neighbours::find_meeting(Part& part, std::span<const Index> bodies) const {
     part.searcher.start();
     for (const Index body : bodies) {

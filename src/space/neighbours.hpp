@@ -164,6 +164,7 @@ private:
 
     template <class Predicate>
     void link_batch(Executor& executor, std::span<const Index> bodies, Predicate&& looks_up) {
+        get_ready(parts_of(bodies.size(), link_grain));
         for_parts(executor, bodies.size(), link_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
             find_meeting(parts_[part], bodies.subspan(begin, end - begin));
         });
@@ -174,6 +175,8 @@ private:
             clear_for_bursts(part.meetings, most_meetings_);
         }
     }
+    /// Another batch may have some parts more.
+    void get_ready(std::size_t parts);
     void find_meeting(Part& part, std::span<const Index> bodies) const;
     /// Who has the body in a list of build() has it twice then: to find that out would cost more.
     template <class Predicate>
@@ -187,6 +190,7 @@ private:
     Cells cells_;
     std::array<Part, most_parts> parts_;
     std::size_t most_meetings_ = 0; ///< of a part so far
+    std::size_t ready_ = 0;         ///< parts
     std::vector<Known> known_;      ///< per body
     std::vector<Link> links_;
     bool extending_ = false;

@@ -25,12 +25,12 @@ void expect_none(const char* name, Precision precision, unsigned threads) {
     World world = carom::scene::make_world(scene);
     world.set_executor(carom::make_thread_executor(threads));
     world.set_recording(true);
-    step(world, 300, scene.run.dt);
+    step(world, 200, scene.run.dt);
     const std::uint64_t before = carom::test::allocations();
     const std::uint64_t impacts_before = world.ledger().impacts;
     step(world, 1000, scene.run.dt);
     const std::uint64_t counted = carom::test::allocations() - before;
-    std::printf("figure: gas of 10 000, %s, steps 300 to 1300: %llu allocations\n", name,
+    std::printf("figure: gas of 10 000, %s, steps 200 to 1200: %llu allocations\n", name,
                 static_cast<unsigned long long>(counted));
     EXPECT_EQ(counted, 0U);
     EXPECT_GT(before, 0U) << "nothing is counted";
@@ -38,8 +38,8 @@ void expect_none(const char* name, Precision precision, unsigned threads) {
     EXPECT_FALSE(world.impacts().empty());
 }
 
-TEST(Allocations, NoneOnce300StepsAreDoneInDouble) { expect_none("double, 1 thread", Precision::double_precision, 1); }
-TEST(Allocations, NoneOnce300StepsAreDoneInSingle) { expect_none("single, 1 thread", Precision::single_precision, 1); }
+TEST(Allocations, NoneOnce200StepsAreDoneInDouble) { expect_none("double, 1 thread", Precision::double_precision, 1); }
+TEST(Allocations, NoneOnce200StepsAreDoneInSingle) { expect_none("single, 1 thread", Precision::single_precision, 1); }
 TEST(Allocations, NoneOnThreadsInDouble) { expect_none("double, 2 threads", Precision::double_precision, 2); }
 TEST(Allocations, NoneOnThreadsInSingle) { expect_none("single, 2 threads", Precision::single_precision, 2); }
 

