@@ -22,6 +22,17 @@ struct Impact {
     double energy_lost = 0;    ///< J, by restitution and friction, >= 0
 };
 
+/// Two bodies, or a body and a face of the region, that touch and press on each other.
+struct Contact {
+    BodyId a{};             ///< of two bodies of a pile the one with the lower id; else the one that is not static
+    BodyId b{};             ///< not set where it is a face
+    std::int32_t face = -1; ///< index of the face, -1 between bodies
+    Vec3 position{};        ///< m, the point of contact
+    Vec3 normal{};          ///< unit vector from a to b, or from a into the face
+    double force = 0;       ///< N along the normal, > 0: b gets it along the normal, a against it
+    Vec3 friction{};        ///< N across the normal on b, or on the face; a gets the opposite
+};
+
 /// Wall-clock seconds that the phases of a step took.
 struct PhaseTimes {
     double forces = 0;  ///< kicks of drag and attractors, contacts of held bodies

@@ -129,6 +129,11 @@ public:
     [[nodiscard]] const StepReport& report() const noexcept;
     /// Impacts of the last step in the order (time, ids); valid until the next step.
     [[nodiscard]] std::span<const Impact> impacts() const noexcept;
+    /// What rests on what at the end of the last step, and with what force: of a pile, the mean over the last piece of
+    /// the step; of a held body, what its supports give now. In the order of (a, then b, then faces). The force on a
+    /// face or a static body is the sum of `force * normal + friction` over its contacts. Takes O(contacts log
+    /// contacts).
+    [[nodiscard]] std::vector<Contact> contacts() const;
     /// Positions (m) at `time` inside the last step, on the straight line between its two ends (across a periodic
     /// face the short way): for drawing between steps. Needs WorldOptions::interpolation.
     void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;

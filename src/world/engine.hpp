@@ -72,6 +72,9 @@ public:
     void set_threads(unsigned threads);
     void set_executor(std::shared_ptr<Executor> executor);
 
+    // engine_contacts.cpp
+    [[nodiscard]] std::vector<Contact> contacts() const;
+
     // engine_sums.cpp
     [[nodiscard]] Energy energy() const;
     [[nodiscard]] Vec3 momentum() const;
@@ -109,6 +112,10 @@ private:
                 metres_between(zero.z, x.z, setting_.resolution)};
     }
     [[nodiscard]] Vec3 api_position(const Int3& x) const { return metres_from(setting_.origin, x); }
+
+    // engine_contacts.cpp
+    [[nodiscard]] Contact contact_of(Index body, std::uint32_t code) const;
+    void add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const;
 
     // engine_step.cpp
     /// m/s^2, at least what the attractors do to any body.

@@ -169,6 +169,10 @@ const StepReport& World::report() const noexcept {
     return std::visit([](const auto& engine) -> const StepReport& { return engine.report(); }, impl_->engine);
 }
 
+std::vector<Contact> World::contacts() const {
+    return impl_->pass([](const auto& engine) { return engine.contacts(); });
+}
+
 std::span<const Impact> World::impacts() const noexcept {
     return std::visit([](const auto& engine) { return engine.impacts(); }, impl_->engine);
 }

@@ -84,6 +84,26 @@ TEST(Pile, TheFloorCarriesTheWeight) {
     EXPECT_NEAR((world.ledger().outer_impulse - before).z, 0, 1e-3 * weight);
 }
 
+TEST(Pile, ForcesBalanceTheWeightOfEachBody) {
+    World world = heap(4, 10, 0.5, box_world(4.4));
+    run(world, 10);
+    std::vector<Vec3> forces(world.size());
+    Vec3 on_floor{};
+    for (const carom::Contact& contact : world.contacts()) {
+        EXPECT_GT(contact.force, 0);
+        EXPECT_NEAR(length(contact.normal), 1, 1e-12);
+        EXPECT_LE(length(contact.friction), 0.5 * contact.force * (1 + 1e-9));
+        const Vec3 force = contact.normal * contact.force + contact.friction;
+        forces[contact.a.slot] -= force;
+        if (contact.face == 4) on_floor += force;
+        if (contact.b.is_set()) forces[contact.b.slot] += force;
+    }
+    for (const Vec3& force : forces) EXPECT_NEAR(length(force - Vec3{0, 0, g}), 0, 1e-3 * g);
+    const double weight = g * static_cast<double>(world.size());
+    std::printf("figure: the floor under %zu bodies carries %.9f of their weight\n", world.size(),
+                -on_floor.z / weight);
+}
+
 TEST(Pile, AnyStepGivesTheSameRest) {
     for (const double step : {1.0 / 1000, 1.0 / 240, 1.0 / 60, 1.0 / 20}) {
         WorldOptions options = box_world(10);

@@ -43,6 +43,26 @@ TEST(Rest, ABodyThatLiesStaysAndDoesNothing) {
     }
 }
 
+TEST(Rest, SupportsGiveWhatPressesABody) {
+    WorldOptions options;
+    options.gravity = {-3, 4, -g};
+    options.region = carom::Box{{0, 0, 0}, {10, 10, 10}};
+    World world(options);
+    world.add({.position = {1, 9, 1}, .mass = 2, .restitution = 0});
+    run(world, 10);
+    const std::vector<carom::Contact> contacts = world.contacts();
+    ASSERT_EQ(contacts.size(), 3U);
+    const double expected[] = {6, 8, 2 * g};
+    const int faces[] = {0, 3, 4};
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(contacts[k].face, faces[k]);
+        EXPECT_FALSE(contacts[k].b.is_set());
+        EXPECT_NEAR(contacts[k].force, expected[k], 1e-9);
+        EXPECT_EQ(contacts[k].friction, Vec3{});
+    }
+    EXPECT_NEAR(length(contacts[2].position - Vec3{0.5, 9.5, 0}), 0, 1e-9);
+}
+
 TEST(Rest, AFrictionlessBodySlidesOnForEver) {
     World world(floor_world());
     const BodyId ball = world.add({.position = {0, 0, 0.5}, .velocity = {1e-3, 0, 0}, .restitution = 0.3});

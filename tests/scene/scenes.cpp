@@ -25,8 +25,8 @@ std::vector<std::string> scene_files() {
 }
 
 TEST(Scenes, AllThatAreNamedInTheDocumentationAreThere) {
-    for (const char* name :
-         {"two_bodies", "newtons_cradle", "bouncing_balls", "pi", "gas", "cooling", "rain", "asteroids"}) {
+    for (const char* name : {"two_bodies", "newtons_cradle", "bouncing_balls", "pi", "gas", "cooling", "rain", "heap",
+                             "tower", "asteroids"}) {
         EXPECT_TRUE(std::filesystem::exists(std::string("scenes/") + name + ".toml")) << name;
     }
 }

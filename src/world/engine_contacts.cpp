@@ -1,0 +1,94 @@
+#include "contact/rest.hpp"
+#include "world/engine.hpp"
+
+#include <carom/collision.hpp>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace carom::core {
+
+namespace {
+
+/// The parts >= 0 along the supports' normals (N) that come nearest to `push` together: Gauss and Seidel.
+std::array<double, 3> share_out(const Vec3& push, const std::vector<Support>& supports) {
+    constexpr int sweeps = 64;
+    std::array<double, 3> shares{};
+    Vec3 left = push;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        for (std::size_t k = 0; k < supports.size(); ++k) {
+            const double change = std::max(dot(left, supports[k].normal), -shares.at(k));
+            shares.at(k) += change;
+            left -= supports[k].normal * change;
+        }
+    }
+    return shares;
+}
+
+} // namespace
+
+/// Where and against what a body touches, without the force.
+template <class Real>
+Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
+    const Motion<Real>& m = state_.bodies.motion[body];
+    Contact contact{.a = id_of(state_.bodies.slot[body])};
+    if ((code & Support::wall_bit) != 0) {
+        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
+        contact.face = wall.face;
+        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
+    } else {
+        contact.b = id_of(code);
+        const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[code]];
+        contact.normal = contact_normal(separation(state_, m, other, {}, {}), Vec3{});
+    }
+    contact.position = api_position(m.x) + contact.normal * static_cast<double>(m.radius);
+    return contact;
+}
+
+/// What the supports of a held body give: all that presses it on, but what is left to move it.
+template <class Real>
+void Engine<Real>::add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const {
+    const Index body = state_.bodies.slots[slot];
+    const auto mass = static_cast<double>(state_.bodies.mass[body]);
+    const Motion<Real>& m = state_.bodies.motion[body];
+    Vec3 push = (state_.laws.gravity + attraction(state_, body)) * mass;
+    for (const Support& s : hold.supports) push += s.normal * (s.bend * length_squared(velocity_of(m)) * mass);
+    const std::array<double, 3> shares = share_out(push, hold.supports);
+    double all = 0;
+    for (const double share : shares) all += share;
+    for (std::size_t k = 0; k < hold.supports.size(); ++k) {
+        if (!(shares.at(k) > 0)) continue;
+        Contact& contact = contacts.emplace_back(contact_of(body, hold.supports[k].code));
+        contact.force = shares.at(k);
+        contact.friction = hold.friction * (-mass * shares.at(k) / all);
+    }
+}
+
+template <class Real>
+std::vector<Contact> Engine<Real>::contacts() const {
+    std::vector<Contact> contacts;
+    contacts.reserve(state_.bodies.contacts.size() + state_.bodies.holds.size());
+    for (const ContactForce& force : state_.bodies.contacts) {
+        const Index body = state_.bodies.slots[force.a];
+        if (state_.bodies.kind[body] != Kind::piled) continue;
+        Contact& contact = contacts.emplace_back(contact_of(body, force.code));
+        contact.force = force.normal;
+        contact.friction = force.friction;
+    }
+    for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
+    // A face's id is not set, which is the last of all.
+    std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
+        return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
+    });
+    return contacts;
+}
+
+template Contact Engine<float>::contact_of(Index, std::uint32_t) const;
+template Contact Engine<double>::contact_of(Index, std::uint32_t) const;
+template void Engine<float>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
+template void Engine<double>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
+template std::vector<Contact> Engine<float>::contacts() const;
+template std::vector<Contact> Engine<double>::contacts() const;
+
+} // namespace carom::core
