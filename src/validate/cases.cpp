@@ -23,8 +23,9 @@ constexpr std::array all_groups{
 };
 
 constexpr std::array<std::string_view, 8> untested{
-    "Packing of poured spheres, its coordination number, and the weight of a heap at rest on the floor: carom has no "
-    "solver for resting contacts yet.",
+    "Packing of poured spheres, its coordination number, and the weight of a heap on the floor "
+    "(tests/physics/pile_test.cpp "
+    "weighs one).",
     "Compression by growing radii or moving walls to packing 0.60: radii and walls do not move.",
     "Restitution that depends on the approach speed (viscoelastic spheres, ice): materials have a constant e.",
     "Coulomb friction in impacts: no published reference without rotation is at hand; the tests of the library compare "

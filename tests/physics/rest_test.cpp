@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -52,12 +53,12 @@ TEST(Rest, SupportsGiveWhatPressesABody) {
     run(world, 10);
     const std::vector<carom::Contact> contacts = world.contacts();
     ASSERT_EQ(contacts.size(), 3U);
-    const double expected[] = {6, 8, 2 * g};
-    const int faces[] = {0, 3, 4};
+    constexpr std::array<double, 3> expected{6, 8, 2 * g};
+    constexpr std::array<int, 3> faces{0, 3, 4};
     for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(contacts[k].face, faces[k]);
+        EXPECT_EQ(contacts[k].face, faces.at(k));
         EXPECT_FALSE(contacts[k].b.is_set());
-        EXPECT_NEAR(contacts[k].force, expected[k], 1e-9);
+        EXPECT_NEAR(contacts[k].force, expected.at(k), 1e-9);
         EXPECT_EQ(contacts[k].friction, Vec3{});
     }
     EXPECT_NEAR(length(contacts[2].position - Vec3{0.5, 9.5, 0}), 0, 1e-9);
