@@ -59,8 +59,9 @@ Pieces Pile<Real>::pieces_of(double duration) const {
             reach = static_cast<double>(state_.bodies.motion[a].radius) +
                     static_cast<double>(state_.bodies.motion[b].radius);
             const Vec3 delta = separation(state_, state_.bodies.motion[a], state_.bodies.motion[b], {}, {});
-            const bool is_a_above = dot(delta, state_.laws.gravity) > 0;
-            most_heavy = std::max(most_heavy, is_a_above ? mass / other : other / mass);
+            const double upper = dot(delta, state_.laws.gravity) > 0 ? mass : other;
+            // A static body rests on nothing.
+            if (std::isfinite(upper)) most_heavy = std::max(most_heavy, upper / (upper == mass ? other : mass));
         }
         if (reach > 0) most_stretched = std::max(most_stretched, force.normal * compliance / (wanted_overlap * reach));
     }

@@ -168,8 +168,8 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
             piece.begins_piece = true;
             ++report_.pieces;
             pile_.begin_piece(piece.from, piece.to);
-            tell_of_pile();
         }
+        tell_of_pile();
         progress = resolve_piece(census, piece, windows);
         pile_.end_piece(progress.reached);
         for (const Index body : pile_.released()) islands_.vicinity().disturb(body);

@@ -222,6 +222,44 @@ TEST(Pile, ARemovedBodyLetsOthersFall) {
     EXPECT_NEAR(world.get(high).position.z, 0.5, 1e-9);
 }
 
+// The last piece of a step may have left word of impacts to come among bodies that are gone by then.
+TEST(Pile, BodiesMayGoWhileAHeapIsStruck) {
+    World world = heap(4, 6, 0, box_world(4.4));
+    run(world, 2);
+    for (int k = 0; k < 12; ++k) {
+        world.add({.position = {2.3, 2.1, 9}, .velocity = {1, 2, -150}, .restitution = 0.3}, carom::Overlap::accept);
+        run(world, 0.1);
+        const std::vector<BodyId> ids = world.ids();
+        for (std::size_t i = 0; i < ids.size(); i += 4) world.remove(ids[i]);
+        world.step(dt);
+    }
+    EXPECT_LT(world.size(), 20U);
+    run(world, 1);
+    EXPECT_EQ(world.report().held, world.size());
+}
+
+// A heavy body on a light one takes short pieces. A static one above that leans on nobody does not.
+TEST(Pile, AStaticBodyIsNoBurden) {
+    World world(box_world(10));
+    const Vec3 low{0.5, 5, 0.5};
+    const Vec3 high = low + Vec3{0.25, 0, std::sqrt(1 - 0.0625)};
+    world.add({.position = low, .restitution = 0});
+    const BodyId top = world.add({.position = high + Vec3{0, 0, 1e-6}, .restitution = 0});
+    const double angle = 0.35;
+    world.add({.position = high + Vec3{std::cos(angle), 0, std::sin(angle)} * 0.801,
+               .mass = carom::infinite_mass,
+               .radius = 0.3,
+               .restitution = 0});
+    run(world, 1);
+    const std::vector<carom::Contact> contacts = world.contacts();
+    const auto is_static = [&world](const carom::Contact& c) {
+        return c.b.is_set() && world.get(c.b).mass == carom::infinite_mass;
+    };
+    ASSERT_TRUE(std::any_of(contacts.begin(), contacts.end(), is_static));
+    EXPECT_TRUE(world.held(top));
+    EXPECT_EQ(world.report().pieces, 8U);
+}
+
 TEST(Pile, GoesOnFromASnapshot) {
     World world = heap(3, 6, 0.3, box_world(3.3));
     run(world, 1);
