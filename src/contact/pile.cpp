@@ -44,7 +44,7 @@ std::uint32_t lower_cell(std::uint32_t a, std::uint32_t b, std::uint32_t turn) {
 /// A contact under the load F overlaps by F / (m w^2) if it swings at w: the larger the load, the shorter the pieces. A
 /// heavy body M on a light one m gives way to one pass of a piece h by h^2 M g / m, and its swinging ends in 2 h M / m.
 template <class Real>
-Pieces Pile<Real>::pieces_of(double duration) const {
+auto Pile<Real>::wanted_rates() const -> Rates {
     double most_stretched = 0; // 1/s^2
     double most_heavy = 0;     // mass of an upper body, in masses of the lower one
     for (const ContactForce& force : state_.bodies.contacts) {
@@ -65,10 +65,22 @@ Pieces Pile<Real>::pieces_of(double duration) const {
         }
         if (reach > 0) most_stretched = std::max(most_stretched, force.normal * compliance / (wanted_overlap * reach));
     }
-    const double rate = std::max({least_rate, std::sqrt(most_stretched) / (2 * std::numbers::pi * stiffness),
-                                  std::min(rate_per_ratio * most_heavy, most_rate)});
+    return {.load = std::min(std::sqrt(most_stretched) / (2 * std::numbers::pi * stiffness), most_rate),
+            .mass_ratio = std::min(rate_per_ratio * most_heavy, most_rate)};
+}
+
+/// Loads change from step to step. Contacts that became stiffer and softer with them would stir a heap: their rate
+/// changes by halves, and goes back late.
+template <class Real>
+Pieces Pile<Real>::cut(double duration) {
+    constexpr double low = 0.4;
+    const Rates wanted = wanted_rates();
+    double& rate = state_.bodies.piece_rate;
+    rate = std::max(rate, least_rate);
+    while (rate < wanted.load) rate *= 2;
+    while (rate > least_rate && wanted.load < low * rate) rate /= 2;
     constexpr double rounding = 1 - 1e-9;
-    const double pieces = std::clamp(duration * rate * rounding, 1.0, most_pieces);
+    const double pieces = std::clamp(duration * std::max(rate, wanted.mass_ratio) * rounding, 1.0, most_pieces);
     return {duration, static_cast<std::uint32_t>(std::ceil(pieces))};
 }
 

@@ -30,8 +30,8 @@ public:
 
     void use(Executor& executor) { executor_ = &executor; }
 
-    /// How a step of `duration` (s) is cut as long as bodies are piled: a function of the forces of their contacts.
-    [[nodiscard]] Pieces pieces_of(double duration) const;
+    /// How a step of `duration` (s) is cut as long as bodies are piled: by the forces of their contacts.
+    [[nodiscard]] Pieces cut(double duration);
     /// Start of a step: bodies may have come, gone, or changed places in memory.
     void begin_step();
     /// Whether bodies are piled: to be asked between pieces.
@@ -76,6 +76,11 @@ private:
     static constexpr std::size_t column_grain = 4;
     static constexpr std::size_t colours = 4;
 
+    /// Pieces a second.
+    struct Rates {
+        double load = 0;       ///< that the loads ask for
+        double mass_ratio = 0; ///< that bodies on lighter ones ask for
+    };
     /// A piled body while it is worked on.
     struct Leaner {
         Index body = no_index;
@@ -159,6 +164,7 @@ private:
         double impulse = 0; ///< part of the impulse so far that is taken back
     };
 
+    [[nodiscard]] Rates wanted_rates() const;
     void start_list(double from);
     void gather();
     bool take_back(double from);

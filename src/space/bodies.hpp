@@ -119,6 +119,7 @@ struct Bodies {
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
     std::vector<ContactForce> contacts;       ///< of the piled bodies, in their order; between steps
     std::vector<Load> loads;                  ///< per body, inside a step with contacts
+    double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
     std::vector<Course> course;               ///< per body, only while a solver works on these bodies

@@ -157,7 +157,7 @@ template <class Real>
 double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     const std::uint32_t windows =
         std::max(setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
-    const Pieces pieces = pile_.pieces_of(dt);
+    const Pieces pieces = pile_.cut(dt);
     pile_.begin_step();
     Progress progress;
     bool goes_on = true;

@@ -238,7 +238,8 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
     archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
-            b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+            b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
+            last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
 
@@ -370,6 +371,7 @@ bool Engine<Real>::holds_are_sound() const {
 template <class Real>
 bool Engine<Real>::contacts_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
+    check_not_negative(b.piece_rate, "piece_rate");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
     return std::all_of(b.contacts.begin(), b.contacts.end(), [&](const ContactForce& c) {
         check_not_negative(c.normal, "contact");
@@ -403,6 +405,7 @@ std::uint64_t Engine<Real>::hash() const {
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
+    hasher(state_.bodies.piece_rate);
     for (const ContactForce& c : state_.bodies.contacts) {
         hasher(c.a, c.code, c.normal);
         hasher.vector(c.friction);
