@@ -35,11 +35,12 @@ struct Contact {
 
 /// Wall-clock seconds that the phases of a step took.
 struct PhaseTimes {
-    double forces = 0;  ///< kicks of drag and attractors, contacts of held bodies
-    double cells = 0;   ///< swept boxes and sorting into cells
-    double pairs = 0;   ///< pair search and first predictions
-    double impacts = 0; ///< event loop
-    double bodies = 0;  ///< bringing every body to the end of the step
+    double forces = 0;   ///< kicks of drag and attractors, contacts of held bodies
+    double contacts = 0; ///< contacts of piles
+    double cells = 0;    ///< swept boxes and sorting into cells
+    double pairs = 0;    ///< pair search and first predictions
+    double impacts = 0;  ///< event loop
+    double bodies = 0;   ///< bringing every body to the end of the step
 };
 
 /// What one call of World::step did.

@@ -438,7 +438,7 @@ void Pile<Real>::keep_forces() {
     clear_for_reuse(forces);
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
         const Contact& c = contacts_[k];
-        if (!(c.impulse > 0)) continue;
+        if (!(c.impulse > 0) || leaners_[c.a].is_gone) continue;
         forces.push_back({names_[k].slot, names_[k].code, c.impulse / piece_, c.friction_impulse / piece_});
     }
 }
@@ -470,8 +470,8 @@ void Pile<Real>::measure(std::uint32_t number) {
         contact.normal = distance > 0 ? delta / distance : contact_normal(delta, Vec3{});
         contact.gap = distance - contact.touching;
     }
-    contact.is_open =
-        contact.gap > 0 && approach_of(contact) > least_strike_ && approach_of(contact) > strike_of(number);
+    const double approach = approach_of(contact);
+    contact.is_open = contact.gap > 0 && approach > least_strike_ && approach > strike_of(number);
     if (contact.is_open) contact.impulse = 0;
     if (contact.friction == 0) return;
     contact.friction_impulse -= contact.normal * dot(contact.friction_impulse, contact.normal);

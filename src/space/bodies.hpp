@@ -89,10 +89,6 @@ struct ContactForce {
     std::uint32_t code = 0; ///< the other's slot, or Support::wall_bit | index of a wall of the Bounds
     double normal = 0;      ///< N, >= 0, pushes them apart
     Vec3 friction{};        ///< N, on the other
-
-    friend bool operator<(const ContactForce& x, const ContactForce& y) {
-        return std::pair(x.a, x.code) < std::pair(y.a, y.code);
-    }
 };
 
 /// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.

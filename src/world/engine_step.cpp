@@ -157,6 +157,7 @@ template <class Real>
 double Engine<Real>::resolve_impacts(const Census& census, double dt) {
     const std::uint32_t windows =
         std::max(setting_.options.min_windows, window_count(census, state_.bounds, setting_.resolution, dt));
+    Stopwatch watch;
     const Pieces pieces = pile_.cut(dt);
     pile_.begin_step();
     Progress progress;
@@ -170,12 +171,15 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
             pile_.begin_piece(piece.from, piece.to);
         }
         tell_of_pile();
+        report_.seconds.contacts += watch.lap();
         progress = resolve_piece(census, piece, windows);
+        watch.lap();
         pile_.end_piece(progress.reached);
         for (const Index body : pile_.released()) islands_.vicinity().disturb(body);
         goes_on = !progress.work_cap_reached && !progress.edge_reached;
     }
     pile_.end_step(progress.reached);
+    report_.seconds.contacts += watch.lap();
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
     report_solvers();

@@ -71,17 +71,8 @@ TEST(Pile, AHeapComesToRestAndNothingIsDampedOnTheWay) {
     EXPECT_LE(overlaps.largest, 0.02);
     EXPECT_EQ(world.report().held, world.size());
     EXPECT_GE(world.report().contacts, world.size());
+    EXPECT_GT(world.report().seconds.contacts, 0);
     EXPECT_NEAR(world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-9 * start);
-}
-
-// What the floor gives in a second is what gravity takes.
-TEST(Pile, TheFloorCarriesTheWeight) {
-    World world = heap(4, 10, 0.5, box_world(4.4));
-    run(world, 10);
-    const Vec3 before = world.ledger().outer_impulse;
-    run(world, 1);
-    const double weight = g * static_cast<double>(world.size());
-    EXPECT_NEAR((world.ledger().outer_impulse - before).z, 0, 1e-3 * weight);
 }
 
 TEST(Pile, ForcesBalanceTheWeightOfEachBody) {
@@ -100,6 +91,7 @@ TEST(Pile, ForcesBalanceTheWeightOfEachBody) {
     }
     for (const Vec3& force : forces) EXPECT_NEAR(length(force - Vec3{0, 0, g}), 0, 1e-3 * g);
     const double weight = g * static_cast<double>(world.size());
+    EXPECT_NEAR(-on_floor.z, weight, 1e-3 * weight);
     std::printf("figure: the floor under %zu bodies carries %.9f of their weight\n", world.size(),
                 -on_floor.z / weight);
 }
@@ -222,20 +214,17 @@ TEST(Pile, ARemovedBodyLetsOthersFall) {
     EXPECT_NEAR(world.get(high).position.z, 0.5, 1e-9);
 }
 
-// The last piece of a step may have left word of impacts to come among bodies that are gone by then.
-TEST(Pile, BodiesMayGoWhileAHeapIsStruck) {
-    World world = heap(4, 6, 0, box_world(4.4));
-    run(world, 2);
-    for (int k = 0; k < 12; ++k) {
-        world.add({.position = {2.3, 2.1, 9}, .velocity = {1, 2, -150}, .restitution = 0.3}, carom::Overlap::accept);
-        run(world, 0.1);
-        const std::vector<BodyId> ids = world.ids();
-        for (std::size_t i = 0; i < ids.size(); i += 4) world.remove(ids[i]);
+// The last piece of a step leaves word of impacts to come: among bodies that may be gone by the next.
+TEST(Pile, NoPairIsLookedAtOnceAPileIsGone) {
+    for (int steps = 40; steps < 60; ++steps) {
+        World world = heap(4, 6, 0, box_world(4.4));
+        run(world, steps * dt);
+        world.remove(world.ids());
+        world.add({.position = {1, 1, 40}});
+        world.add({.position = {3, 3, 50}});
         world.step(dt);
+        EXPECT_EQ(world.report().candidates, 0U) << steps;
     }
-    EXPECT_LT(world.size(), 20U);
-    run(world, 1);
-    EXPECT_EQ(world.report().held, world.size());
 }
 
 // A heavy body on a light one takes short pieces. A static one above that leans on nobody does not.

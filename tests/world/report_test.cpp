@@ -358,7 +358,8 @@ TEST_P(Reports, PhasesLastNoLongerThanTheCall) {
         const auto start = std::chrono::steady_clock::now();
         const PhaseTimes& seconds = world.step(1.0 / 60).seconds;
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        const std::array phases{seconds.forces, seconds.cells, seconds.pairs, seconds.impacts, seconds.bodies};
+        const std::array phases{seconds.forces, seconds.contacts, seconds.cells,
+                                seconds.pairs,  seconds.impacts,  seconds.bodies};
         double sum = 0;
         for (const double phase : phases) {
             EXPECT_GE(phase, 0);
