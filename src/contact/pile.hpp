@@ -46,7 +46,7 @@ public:
     void end_step(double reached);
 
     /// Calls f(a, b) for every pair that may strike each other in the piece, and f(a, no_index) for a body that may
-    /// strike a wall, as far as bodies are told of (see Load) and no faster than told_speed().
+    /// strike a wall, as far as bodies are told of (see Load).
     template <class F>
     void for_each_strike(F&& f) const {
         if (2 * top_speed_ <= least_strike_) return;

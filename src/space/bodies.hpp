@@ -95,7 +95,7 @@ struct ContactForce {
 struct Load {
     Vec3 pull{};          ///< m/s^2, what all forces, those of the contacts too, last did to it
     double pressing = 0;  ///< m/s^2, what the strongest of its contacts does to it
-    bool is_told = false; ///< all that it can meet of its pile in the piece is among its contacts, if it stays slow
+    bool is_told = false; ///< all that it can meet of its pile in the piece is among its contacts, as long as nothing strikes it
 };
 
 /// All bodies of a world, one element of each array per body.

@@ -320,8 +320,9 @@ double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& accel
 template <class Real>
 bool Vicinity<Real>::is_told(Index body) const {
     const Bodies<Real>& bodies = state_.bodies;
-    return bodies.kind[body] == Kind::piled && body < bodies.loads.size() && bodies.loads[body].is_told &&
-           length_squared(velocity_of(bodies.motion[body])) <= told_speed_ * told_speed_;
+    if (bodies.kind[body] != Kind::piled || body >= bodies.loads.size() || !bodies.loads[body].is_told) return false;
+    const Motion<Real>& m = bodies.motion[body];
+    return m.t == piece_begin_ || length_squared(velocity_of(m)) <= told_speed_ * told_speed_;
 }
 
 template <class Real>

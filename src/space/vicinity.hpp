@@ -54,9 +54,11 @@ public:
     void disturb(Index body) {
         if (epoch_valid_) disturbed_.push_back(body);
     }
-    /// A piece begins. Of the piled bodies that are *told* of, as long as they are not faster than `told_speed` (m/s),
-    /// only the suspects may meet each other, a static body, or a wall.
-    void begin_piece(double told_speed) {
+    /// A piece begins, at `from` (s since the start of the step). Of the piled bodies that are *told* of, as long as
+    /// nothing has struck them, or they are not faster than `told_speed` (m/s), only the suspects may meet each other, a
+    /// static body, or a wall.
+    void begin_piece(double from, double told_speed) {
+        piece_begin_ = from;
         told_speed_ = told_speed;
         clear_for_reuse(suspects_);
         clear_for_reuse(wall_suspects_);
@@ -239,7 +241,8 @@ private:
     std::vector<Index> disturbed_;
     std::vector<Pair> suspects_;
     std::vector<Index> wall_suspects_;
-    double told_speed_ = 0; ///< m/s
+    double piece_begin_ = 0; ///< s since the start of the step
+    double told_speed_ = 0;  ///< m/s
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 

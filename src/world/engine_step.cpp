@@ -170,7 +170,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
             ++report_.pieces;
             pile_.begin_piece(piece.from, piece.to);
         }
-        tell_of_pile();
+        tell_of_pile(piece.from);
         report_.seconds.contacts += watch.lap();
         progress = resolve_piece(census, piece, windows);
         watch.lap();
@@ -188,9 +188,9 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 
 /// Lets the islands know who of a pile may have impacts in the piece.
 template <class Real>
-void Engine<Real>::tell_of_pile() {
+void Engine<Real>::tell_of_pile(double from) {
     Vicinity<Real>& vicinity = islands_.vicinity();
-    vicinity.begin_piece(pile_.told_speed());
+    vicinity.begin_piece(from, pile_.told_speed());
     pile_.for_each_strike([&vicinity](Index a, Index b) {
         if (b == no_index) {
             vicinity.suspect_at_wall(a);
