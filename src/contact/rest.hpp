@@ -26,7 +26,7 @@ inline double striking_speed(double e, double load, const Laws& laws) {
 }
 template <class Real>
 double load_on(const Bodies<Real>& bodies, Index i) {
-    return i < bodies.loads.size() ? bodies.loads[i].pressing : 0;
+    return i < bodies.loads.size() ? static_cast<double>(bodies.loads[i].pressing) : 0;
 }
 
 /// Derives the times of Laws. A contact between bodies takes quick_time, in which gravity gives a speed of

@@ -91,11 +91,19 @@ struct ContactForce {
     Vec3 friction{};        ///< N, on the other
 };
 
+/// A piled body where it was when its contacts were listed.
+struct ListedBody {
+    std::uint32_t slot = 0;
+    Int3 x{}; ///< units
+};
+
 /// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.
+template <class Real>
 struct Load {
-    Vec3 pull{};          ///< m/s^2, what all forces, those of the contacts too, last did to it
-    double pressing = 0;  ///< m/s^2, what the strongest of its contacts does to it
-    bool is_told = false; ///< all that it can meet of its pile in the piece is among its contacts, as long as nothing strikes it
+    Vector3<Real> given{}; ///< m/s, the velocity that they gave it
+    Vector3<Real> pull{};  ///< m/s^2, what all forces, those of the contacts too, last did to it
+    Real pressing = 0;     ///< m/s^2, what the strongest of its contacts does to it
+    bool is_told = false;  ///< all that it can meet of its pile in the piece is among its contacts, unless it is struck
 };
 
 /// All bodies of a world, one element of each array per body.
@@ -113,8 +121,10 @@ struct Bodies {
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
-    std::vector<ContactForce> contacts;       ///< of the piled bodies, in their order; between steps
-    std::vector<Load> loads;                  ///< per body, inside a step with contacts
+    std::vector<ListedBody> listed;           ///< whose contacts are listed
+    std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
+    double list_age = 0;                      ///< s since it was made
+    std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
@@ -199,13 +209,23 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     if (++bodies.generations[slot] != 0) bodies.free_slots.push_back(slot);
 }
 
+/// The contacts are to be listed anew: what is changed from outside may touch other bodies, or in another way.
+template <class Real>
+void drop_contact_list(Bodies<Real>& bodies) {
+    bodies.newly_piled = bodies.newly_piled || !bodies.listed.empty();
+    bodies.listed.clear();
+}
+
 /// Forgets the contacts of bodies that are gone.
 template <class Real>
 void drop_stale_contacts(Bodies<Real>& bodies) {
     const auto is_gone = [&bodies](std::uint32_t slot) { return bodies.slots[slot] == no_index; };
-    std::erase_if(bodies.contacts, [&](const ContactForce& c) {
+    const std::size_t stale = std::erase_if(bodies.contacts, [&](const ContactForce& c) {
         return is_gone(c.a) || ((c.code & Support::wall_bit) == 0 && is_gone(c.code));
     });
+    const bool is_stale = std::any_of(bodies.listed.begin(), bodies.listed.end(),
+                                      [&](const ListedBody& l) { return is_gone(l.slot); });
+    if (stale != 0 || is_stale) drop_contact_list(bodies);
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by

@@ -116,8 +116,9 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
 /// m/s^2, what accelerates a body as far as it presses on others.
 template <class Real>
 Vec3 pull_on(const State<Real>& state, Index i) {
-    const bool is_solved = state.bodies.kind[i] == Kind::piled && i < state.bodies.loads.size();
-    return is_solved ? state.bodies.loads[i].pull : acceleration_of(state, i);
+    if (state.bodies.kind[i] != Kind::piled || i >= state.bodies.loads.size()) return acceleration_of(state, i);
+    const Vector3<Real>& pull = state.bodies.loads[i].pull;
+    return {static_cast<double>(pull.x), static_cast<double>(pull.y), static_cast<double>(pull.z)};
 }
 
 /// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.

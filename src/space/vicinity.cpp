@@ -316,21 +316,28 @@ double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& accel
            2 * state_.resolution.metres;
 }
 
-/// Whether the contacts of a pile tell what a body may meet of it.
+/// How far the contacts of a pile tell what a body may meet of it.
+template <class Real>
+auto Vicinity<Real>::telling_of(Index body) const -> Telling {
+    const Bodies<Real>& bodies = state_.bodies;
+    if (bodies.kind[body] == Kind::fixed) return {.unless_struck = true, .if_slow = true};
+    if (bodies.kind[body] != Kind::piled || body >= bodies.loads.size() || !bodies.loads[body].is_told) return {};
+    const Motion<Real>& m = bodies.motion[body];
+    return {.unless_struck = m.v == bodies.loads[body].given,
+            .if_slow = length_squared(velocity_of(m)) <= told_speed_ * told_speed_};
+}
+
 template <class Real>
 bool Vicinity<Real>::is_told(Index body) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    if (bodies.kind[body] != Kind::piled || body >= bodies.loads.size() || !bodies.loads[body].is_told) return false;
-    const Motion<Real>& m = bodies.motion[body];
-    return m.t == piece_begin_ || length_squared(velocity_of(m)) <= told_speed_ * told_speed_;
+    const Telling telling = telling_of(body);
+    return telling.unless_struck || telling.if_slow;
 }
 
 template <class Real>
 bool Vicinity<Real>::are_told(Index a, Index b) const {
-    const Kind kind_a = state_.bodies.kind[a];
-    const Kind kind_b = state_.bodies.kind[b];
-    if (kind_a != Kind::piled && kind_b != Kind::piled) return false;
-    return (kind_a == Kind::fixed || is_told(a)) && (kind_b == Kind::fixed || is_told(b));
+    const Telling of_a = telling_of(a);
+    const Telling of_b = telling_of(b);
+    return (of_a.unless_struck && of_b.unless_struck) || (of_a.if_slow && of_b.if_slow);
 }
 
 /// What the calendar has for this window, and the suspects.

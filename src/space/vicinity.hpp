@@ -54,11 +54,9 @@ public:
     void disturb(Index body) {
         if (epoch_valid_) disturbed_.push_back(body);
     }
-    /// A piece begins, at `from` (s since the start of the step). Of the piled bodies that are *told* of, as long as
-    /// nothing has struck them, or they are not faster than `told_speed` (m/s), only the suspects may meet each other, a
-    /// static body, or a wall.
-    void begin_piece(double from, double told_speed) {
-        piece_begin_ = from;
+    /// A piece begins. Of the piled bodies that are *told* of, as long as nothing has struck them, or they are not
+    /// faster than `told_speed` (m/s), only the suspects may meet each other, a static body, or a wall.
+    void begin_piece(double told_speed) {
         told_speed_ = told_speed;
         clear_for_reuse(suspects_);
         clear_for_reuse(wall_suspects_);
@@ -143,6 +141,12 @@ private:
     void collect_due();
     void renew_disturbed();
     void renew_exits();
+    /// Whether the suspects are all that a body may meet of its pile.
+    struct Telling {
+        bool unless_struck = false; ///< it still goes as the contacts have it go
+        bool if_slow = false;       ///< it is too slow to strike another slow one
+    };
+    [[nodiscard]] Telling telling_of(Index body) const;
     [[nodiscard]] bool is_told(Index body) const;
     [[nodiscard]] bool are_told(Index a, Index b) const;
     void charge_held();
@@ -241,8 +245,7 @@ private:
     std::vector<Index> disturbed_;
     std::vector<Pair> suspects_;
     std::vector<Index> wall_suspects_;
-    double piece_begin_ = 0; ///< s since the start of the step
-    double told_speed_ = 0;  ///< m/s
+    double told_speed_ = 0; ///< m/s
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 

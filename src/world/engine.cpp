@@ -114,6 +114,7 @@ void Engine<Real>::set_gravity(const Vec3& gravity) {
     check_finite(gravity, "gravity");
     setting_.options.gravity = state_.laws.gravity = gravity;
     set_contact_time(state_.laws, state_.resolution);
+    drop_contact_list(state_.bodies);
     islands_.vicinity().forget();
 }
 

@@ -123,7 +123,7 @@ private:
     void check_step(const Census& census, double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
-    void tell_of_pile(double from);
+    void tell_of_pile();
     /// Resolves the windows [from, to] of the same piece.
     Progress resolve_piece(const Census& census, const Window& all, std::uint32_t windows);
     Progress resolve_window(const Census& census, const Window& window);

@@ -70,6 +70,7 @@ std::vector<Contact> Engine<Real>::contacts() const {
     std::vector<Contact> contacts;
     contacts.reserve(state_.bodies.contacts.size() + state_.bodies.holds.size());
     for (const ContactForce& force : state_.bodies.contacts) {
+        if (!(force.normal > 0)) continue;
         const Index body = state_.bodies.slots[force.a];
         if (state_.bodies.kind[body] != Kind::piled) continue;
         Contact& contact = contacts.emplace_back(contact_of(body, force.code));

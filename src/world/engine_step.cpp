@@ -170,7 +170,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
             ++report_.pieces;
             pile_.begin_piece(piece.from, piece.to);
         }
-        tell_of_pile(piece.from);
+        tell_of_pile();
         report_.seconds.contacts += watch.lap();
         progress = resolve_piece(census, piece, windows);
         watch.lap();
@@ -188,9 +188,9 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 
 /// Lets the islands know who of a pile may have impacts in the piece.
 template <class Real>
-void Engine<Real>::tell_of_pile(double from) {
+void Engine<Real>::tell_of_pile() {
     Vicinity<Real>& vicinity = islands_.vicinity();
-    vicinity.begin_piece(from, pile_.told_speed());
+    vicinity.begin_piece(pile_.told_speed());
     pile_.for_each_strike([&vicinity](Index a, Index b) {
         if (b == no_index) {
             vicinity.suspect_at_wall(a);
@@ -198,7 +198,7 @@ void Engine<Real>::tell_of_pile(double from) {
             vicinity.suspect(a, b);
         }
     });
-    pile_.for_each_untold([&vicinity](Index body) { vicinity.disturb(body); });
+    for (const Index body : pile_.untold()) vicinity.disturb(body);
 }
 
 template <class Real>
@@ -335,7 +335,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     report_.face_impacts = outcome_.face_impacts;
     report_.tc_conversions = outcome_.tc_conversions;
     report_.held = state_.bodies.holds.size() + pile_.size();
-    report_.contacts = state_.bodies.contacts.size();
+    report_.contacts = pile_.contacts();
     for (const auto& [slot, hold] : state_.bodies.holds) report_.contacts += hold.supports.size();
     ledger_.impacts += outcome_.impacts;
     ledger_.face_impacts += outcome_.face_impacts;

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 5;
+constexpr std::uint32_t snapshot_version = 6;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -150,6 +150,11 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, ListedBody& listed) {
+    archive(listed.slot, listed.x);
+}
+
+template <class Archive>
 void transfer(Archive& archive, ContactForce& force) {
     archive(force.a, force.code, force.normal, force.friction);
 }
@@ -237,8 +242,8 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
-            b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
+    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed,
+            b.contacts, b.list_age, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
             last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
@@ -257,6 +262,8 @@ std::vector<std::byte> Engine<Real>::save() const {
     }
     reorder(ordered, order);
     ordered.for_each_column([this](auto& column) { column.normalise(size()); });
+    std::sort(ordered.listed.begin(), ordered.listed.end(),
+              [](const ListedBody& a, const ListedBody& b) { return a.slot < b.slot; });
     self.transfer(body, ordered);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
@@ -372,12 +379,22 @@ template <class Real>
 bool Engine<Real>::contacts_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     check_not_negative(b.piece_rate, "piece_rate");
+    check_not_negative(b.list_age, "list_age");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
+    std::vector<bool> is_listed(b.slots.size(), false);
+    for (const ListedBody& l : b.listed) {
+        if (!exists(l.slot) || is_listed[l.slot] || b.kind[b.slots[l.slot]] == Kind::fixed) return false;
+        is_listed[l.slot] = true;
+    }
+    const auto can_bear = [&](std::uint32_t slot) {
+        return exists(slot) && (b.listed.empty() || is_listed[slot] || b.kind[b.slots[slot]] == Kind::fixed);
+    };
     return std::all_of(b.contacts.begin(), b.contacts.end(), [&](const ContactForce& c) {
         check_not_negative(c.normal, "contact");
         check_finite(c.friction, "contact");
         const bool is_wall = (c.code & Support::wall_bit) != 0;
-        return exists(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : exists(c.code));
+        return can_bear(c.a) && b.kind[b.slots[c.a]] != Kind::fixed &&
+               (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : can_bear(c.code));
     });
 }
 
@@ -405,7 +422,7 @@ std::uint64_t Engine<Real>::hash() const {
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
-    hasher(state_.bodies.piece_rate);
+    hasher(state_.bodies.piece_rate, state_.bodies.list_age);
     for (const ContactForce& c : state_.bodies.contacts) {
         hasher(c.a, c.code, c.normal);
         hasher.vector(c.friction);
