@@ -116,6 +116,7 @@ void Pile<Real>::begin_piece(double from, double to) {
     piece_ = to - from;
     if (bodies.listed.empty()) return;
     if (!has_values_) start_values();
+    note_pressings();
     bodies.list_age += piece_;
     constexpr double swing = 2 * std::numbers::pi * stiffness; // in a piece
     constexpr double damped = 2 * damping_ratio + swing;
@@ -264,6 +265,7 @@ void Pile<Real>::start_values() {
     movers_.assign(list_.movers(), {});
     places_.assign(list_.movers(), {});
     carried_.assign(list_.movers(), 0);
+    pressings_.assign(list_.movers(), 0);
     marks_.resize(list_.movers(), 0);
     losses_.resize(list_.bundles());
     for_each_leaner([&](Findings& findings, std::size_t k) {
@@ -279,7 +281,6 @@ void Pile<Real>::start_values() {
     for_each_leaner([&](Findings&, std::size_t k) { movers_[k].v = {}; });
     list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->warm_up(run_of(groups)); });
     for_each_leaner([&](Findings&, std::size_t k) { shares_[k] = movers_[k].v; });
-    note_pressings();
     has_values_ = true;
 }
 
@@ -340,14 +341,14 @@ void Pile<Real>::keep_forces() {
     for (const std::size_t count : bearing) bearing_ += count;
 }
 
-/// Lets everybody know how the bodies are pressed.
+/// Notes how the strongest contact of each body presses it.
 template <class Real>
 void Pile<Real>::note_pressings() {
-    list_.for_each_bundle(*executor_, [this](std::size_t, std::span<ContactGroup<Real>> groups) {
-        const auto press = [this](std::uint32_t mover, Real impulse) {
-            if (mover >= bodies_.size()) return;
-            Real& pressing = state_.bodies.loads[bodies_[mover]].pressing;
-            pressing = std::max(pressing, impulse * movers_[mover].inverse_mass / static_cast<Real>(piece_));
+    for_each_leaner([this](Findings&, std::size_t k) { pressings_[k] = 0; });
+    const auto frequency = static_cast<Real>(1 / piece_);
+    list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
+        const auto press = [&](std::uint32_t mover, Real impulse) {
+            pressings_[mover] = std::max(pressings_[mover], impulse * movers_[mover].inverse_mass * frequency);
         };
         for (const ContactGroup<Real>& group : groups) {
             for (std::size_t lane = 0; lane < group_size; ++lane) {
@@ -594,6 +595,7 @@ void Pile<Real>::go() {
         // An impact may change its speed within the piece.
         const double speed = std::max(length(to_double(movers_[k].v)), told_speed_);
         Load<Real>& load = state_.bodies.loads[bodies_[k]];
+        load.pressing = pressings_[k];
         load.given = movers_[k].v;
         load.pull = (movers_[k].v - before_[k]) * frequency;
         load.is_told = length(to_double(places_[k].x)) + speed * piece_ <= room;

@@ -169,6 +169,7 @@ private:
     LineVector<Place<Real>> places_; ///< how far it has come since it was listed
     std::vector<std::uint8_t> marks_;
     std::vector<std::uint8_t> carried_;
+    std::vector<Real> pressings_; ///< m/s^2, as in Load
 
     std::vector<Closed> closed_;
     std::uint8_t all_marks_ = 0;
