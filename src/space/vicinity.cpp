@@ -189,6 +189,9 @@ void Vicinity<Real>::build(const Census& census, double way) {
     lead_ = share * horizon_;
     middle_ = static_cast<float>(lead_);
     typical_room_ = way * windows * (1 - share);
+    // Piled bodies creep for long, and have few others to look for: large covers cost them nothing.
+    constexpr double creep = 0.05;
+    if (has_pile_) typical_room_ = std::max(typical_room_, creep * census.mean_radius);
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
     const auto [x, y, z] = ticks_.metres_per_tick();

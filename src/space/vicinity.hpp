@@ -56,8 +56,9 @@ public:
     }
     /// A piece begins. Of the piled bodies that are *told* of, as long as nothing has struck them, or they are not
     /// faster than `told_speed` (m/s), only the suspects may meet each other, a static body, or a wall.
-    void begin_piece(double told_speed) {
+    void begin_piece(double told_speed, bool has_pile) {
         told_speed_ = told_speed;
+        has_pile_ = has_pile;
         clear_for_reuse(suspects_);
         clear_for_reuse(wall_suspects_);
     }
@@ -246,6 +247,7 @@ private:
     std::vector<Pair> suspects_;
     std::vector<Index> wall_suspects_;
     double told_speed_ = 0; ///< m/s
+    bool has_pile_ = false;
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 

@@ -190,7 +190,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 template <class Real>
 void Engine<Real>::tell_of_pile() {
     Vicinity<Real>& vicinity = islands_.vicinity();
-    vicinity.begin_piece(pile_.told_speed());
+    vicinity.begin_piece(pile_.told_speed(), pile_.is_active());
     pile_.for_each_strike([&vicinity](Index a, Index b) {
         if (b == no_index) {
             vicinity.suspect_at_wall(a);
