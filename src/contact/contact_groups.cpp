@@ -253,6 +253,18 @@ HWY_INLINE HWY_ATTR void note_carried(D lanes, const ContactRun<Number<D>>& run,
     }
 }
 
+template <class D>
+HWY_INLINE HWY_ATTR void note_pressings(D lanes, const ContactRun<Number<D>>& run,
+                                        const std::array<std::uint32_t, group_size>& movers, std::size_t lane,
+                                        hn::Vec<D> pressings) {
+    HWY_ALIGN std::array<Number<D>, group_size> out;
+    store(lanes, pressings, out, 0);
+    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
+        Number<D>& pressing = run.pressings[movers[lane + k]];
+        pressing = std::max(pressing, out[k]);
+    }
+}
+
 template <class Real>
 HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces) {
     const hn::CappedTag<Real, group_size> lanes;
@@ -286,6 +298,9 @@ HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces
         push(lanes, run, group, lane, a, b, impulse);
         const auto carries = hn::And(hn::Gt(hn::Add(before, after), zero), hn::Gt(b.inverse_mass, zero));
         note_carried(lanes, run, group, lane, carries);
+        const auto force = hn::Mul(after, frequency);
+        note_pressings(lanes, run, group.a, lane, hn::Mul(force, a.inverse_mass));
+        note_pressings(lanes, run, group.b, lane, hn::Mul(force, b.inverse_mass));
     });
     return losses;
 }

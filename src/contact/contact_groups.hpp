@@ -63,6 +63,7 @@ struct ContactRun {
     Mover<Real>* movers = nullptr;
     const Place<Real>* places = nullptr;    ///< per mover, how far it has come since it was listed
     std::uint8_t* carried = nullptr;        ///< per mover, set to 1 where a contact between two bodies carried it
+    Real* pressings = nullptr;              ///< per mover, m/s^2: what its strongest contact does to it, at least
     bool rubs = false;                      ///< whether any contact has friction
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <numbers>
 
 namespace carom::core {
@@ -98,9 +99,7 @@ void Pile<Real>::begin_step() {
     bearing_ = 0;
     solver_ = &group_solver<Real>();
     told_speed_ = 0.5 * striking_speed(0, 0, state_.laws);
-    // In the life of a list, pairs that are no impacts approach by no more.
-    margin_ = (2 * told_speed_ + length(state_.laws.gravity) * list_life) * list_life + 4 * state_.resolution.metres;
-    far_ = 0.5 * margin_;
+    far_ = 0.5 * state_.bodies.list_margin;
     if (!is_active()) return;
     state_.bodies.loads.assign(state_.bodies.size(), {});
     if (!state_.bodies.listed.empty()) resume_list();
@@ -111,12 +110,13 @@ void Pile<Real>::begin_piece(double from, double to) {
     clear_for_reuse(released_);
     clear_for_reuse(untold_);
     Bodies<Real>& bodies = state_.bodies;
-    const bool is_outdated = bodies.listed.empty() || (has_far_ && bodies.list_age >= list_life);
+    // Until then bodies may come near each other that have no contact in the list, but touch only just.
+    const double life = std::min(list_life, bodies.list_margin / unlisted_approach());
+    const bool is_outdated = bodies.listed.empty() || (has_far_ && bodies.list_age >= life);
     if (is_outdated || (bodies.newly_piled && !take_back(from))) start_list(from);
     piece_ = to - from;
     if (bodies.listed.empty()) return;
     if (!has_values_) start_values();
-    note_pressings();
     bodies.list_age += piece_;
     constexpr double swing = 2 * std::numbers::pi * stiffness; // in a piece
     constexpr double damped = 2 * damping_ratio + swing;
@@ -172,9 +172,29 @@ void Pile<Real>::start_list(double from) {
         bodies.listed[k].x = bodies.motion[bodies_[k]].x;
     });
     clear_for_reuse(closed_);
-    list_.find(*executor_, margin_);
+    bodies.list_margin = wanted_margin();
+    far_ = 0.5 * bodies.list_margin;
+    list_.find(*executor_, bodies.list_margin);
     is_listed_ = true;
     bodies.list_age = 0;
+}
+
+/// m. A list ends when a body has moved by half of this: the more, the longer it lasts; but the more of its contacts
+/// bear nothing. Small bodies have no room for much.
+template <class Real>
+double Pile<Real>::wanted_margin() const {
+    constexpr double lives = 2;
+    constexpr double part_of_radius = 0.2;
+    ExactSum radii; // the same in any order
+    for (const Index body : bodies_) radii.add(static_cast<double>(state_.bodies.motion[body].radius));
+    const double mean_radius = radii.value() / static_cast<double>(bodies_.size());
+    return std::min(lives * list_life * unlisted_approach(), part_of_radius * mean_radius) + 4 * state_.resolution.metres;
+}
+
+/// m/s, the fastest approach of bodies that is no impact.
+template <class Real>
+double Pile<Real>::unlisted_approach() const {
+    return 2 * told_speed_ + length(state_.laws.gravity) * list_life;
 }
 
 template <class Real>
@@ -199,7 +219,7 @@ void Pile<Real>::resume_list() {
     Bodies<Real>& bodies = state_.bodies;
     if (!is_listed_) {
         clear_for_reuse(closed_);
-        list_.recall(margin_);
+        list_.recall(bodies.list_margin);
     }
     is_listed_ = true;
     bodies_.resize(bodies.listed.size());
@@ -214,7 +234,7 @@ void Pile<Real>::resume_list() {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
         if ((marks_[k] & gone) != 0) continue;
         place(k);
-        has_far_ = has_far_ || length_squared(to_double(places_[k].x)) > far_ * far_;
+        has_far_ = has_far_ || is_far(k);
     }
 }
 
@@ -237,7 +257,10 @@ bool Pile<Real>::take_back(double from) {
     if (listed != size()) return false;
     bodies.newly_piled = false;
     if (returned_.empty()) return true;
-    if (has_values_) keep_forces();
+    if (has_values_) {
+        keep_forces();
+        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
+    }
     has_values_ = false;
     for (const std::uint32_t k : returned_) {
         marks_[k] = 0;
@@ -246,21 +269,12 @@ bool Pile<Real>::take_back(double from) {
     return true;
 }
 
-/// Brings a body to time `at`.
-template <class Real>
-void Pile<Real>::advance_leaner(std::size_t leaner, double at) {
-    Entry entry;
-    advance(state_, bodies_[leaner], at, entry);
-    accounts_[leaner].lost += entry.lost_to_restitution;
-    accounts_[leaner].held_mass_time += entry.held_mass_time;
-}
-
 /// Looks where the bodies are, and takes up the forces.
 template <class Real>
 void Pile<Real>::start_values() {
     const std::size_t leaners = bodies_.size();
     least_strike_ = striking_speed(list_.largest_restitution(), 0, state_.laws);
-    before_.resize(leaners);
+    entered_.resize(leaners);
     shares_.resize(leaners);
     movers_.assign(list_.movers(), {});
     places_.assign(list_.movers(), {});
@@ -270,8 +284,10 @@ void Pile<Real>::start_values() {
     losses_.resize(list_.bundles());
     for_each_leaner([&](Findings& findings, std::size_t k) {
         movers_[k] = {state_.bodies.motion[bodies_[k]].v, 1 / state_.bodies.mass[bodies_[k]]};
+        entered_[k] = movers_[k].v;
         place(k);
-        mark(k, findings);
+        if (mark(k)) findings.has_fast = true;
+        if (is_far(k)) findings.has_far = true;
     });
     collect(untold_);
     measure_walls();
@@ -281,6 +297,7 @@ void Pile<Real>::start_values() {
     for_each_leaner([&](Findings&, std::size_t k) { movers_[k].v = {}; });
     list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->warm_up(run_of(groups)); });
     for_each_leaner([&](Findings&, std::size_t k) { shares_[k] = movers_[k].v; });
+    note_pressings();
     has_values_ = true;
 }
 
@@ -341,10 +358,9 @@ void Pile<Real>::keep_forces() {
     for (const std::size_t count : bearing) bearing_ += count;
 }
 
-/// Notes how the strongest contact of each body presses it.
+/// Notes how the strongest contact of each body presses it, as each hard pass does.
 template <class Real>
 void Pile<Real>::note_pressings() {
-    for_each_leaner([this](Findings&, std::size_t k) { pressings_[k] = 0; });
     const auto frequency = static_cast<Real>(1 / piece_);
     list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
         const auto press = [&](std::uint32_t mover, Real impulse) {
@@ -380,6 +396,7 @@ void Pile<Real>::settle_accounts() {
         ExactSum held_mass_time;
     };
     if (accounts_.empty()) return;
+    if (has_values_) for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
     std::array<Sums, most_parts> sums{};
     for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         sums[part].momentum.add(accounts_[k].momentum);
@@ -405,7 +422,7 @@ void Pile<Real>::settle_accounts() {
 
 template <class Real>
 ContactRun<Real> Pile<Real>::run_of(std::span<ContactGroup<Real>> groups) {
-    return {groups, movers_.data(), places_.data(), carried_.data(), list_.rubs()};
+    return {groups, movers_.data(), places_.data(), carried_.data(), pressings_.data(), list_.rubs()};
 }
 
 /// Calls solve(run), which returns the energy (J) that friction took, for all contacts.
@@ -564,13 +581,18 @@ void Pile<Real>::place(std::size_t leaner) {
     places_[leaner].x = to_real<Real>(to_metres(way, state_.resolution));
 }
 
+/// Whether it has moved too far for the list.
 template <class Real>
-void Pile<Real>::mark(std::size_t leaner, Findings& findings) {
-    const double speed_squared = length_squared(to_double(movers_[leaner].v));
-    const bool is_fast = 4 * speed_squared > least_strike_ * least_strike_;
+bool Pile<Real>::is_far(std::size_t leaner) const {
+    return length_squared(to_double(places_[leaner].x)) > far_ * far_;
+}
+
+/// Whether a mover's speed could make a strike.
+template <class Real>
+bool Pile<Real>::mark(std::size_t leaner) {
+    const bool is_fast = 4 * length_squared(to_double(movers_[leaner].v)) > least_strike_ * least_strike_;
     marks_[leaner] = is_fast ? fast : 0;
-    findings.has_fast = findings.has_fast || is_fast;
-    findings.has_far = findings.has_far || length_squared(to_double(places_[leaner].x)) > far_ * far_;
+    return is_fast;
 }
 
 /// What gravity and the contacts of the piece before give the bodies.
@@ -578,8 +600,7 @@ template <class Real>
 void Pile<Real>::set_out() {
     fall_ = to_real<Real>(state_.laws.gravity * piece_);
     for_each_leaner([this](Findings&, std::size_t k) {
-        before_[k] = state_.bodies.motion[bodies_[k]].v;
-        movers_[k].v = before_[k] + fall_ + shares_[k];
+        movers_[k].v = state_.bodies.motion[bodies_[k]].v + fall_ + shares_[k];
     });
 }
 
@@ -587,19 +608,23 @@ void Pile<Real>::set_out() {
 template <class Real>
 void Pile<Real>::go() {
     const auto frequency = static_cast<Real>(1 / piece_);
+    // An impact may change its speed within the piece.
     const double room = far_ - state_.resolution.metres;
+    const double room_if_slow = std::max(0.0, room - told_speed_ * piece_);
     for_each_leaner([&](Findings& findings, std::size_t k) {
-        put(k);
-        shares_[k] = movers_[k].v - (before_[k] + fall_);
-        mark(k, findings);
-        // An impact may change its speed within the piece.
-        const double speed = std::max(length(to_double(movers_[k].v)), told_speed_);
-        Load<Real>& load = state_.bodies.loads[bodies_[k]];
-        load.pressing = pressings_[k];
-        load.given = movers_[k].v;
-        load.pull = (movers_[k].v - before_[k]) * frequency;
-        load.is_told = length(to_double(places_[k].x)) + speed * piece_ <= room;
-        if (!load.is_told) findings.bodies.push_back(bodies_[k]);
+        const Index body = bodies_[k];
+        const Vector v = movers_[k].v;
+        const Vector start = std::exchange(state_.bodies.motion[body].v, v);
+        shares_[k] = v - (start + fall_);
+        enter(k, v);
+        if (mark(k)) findings.has_fast = true;
+        const double speed_squared = length_squared(to_double(v));
+        const double moved_squared = length_squared(to_double(places_[k].x));
+        const bool is_told = speed_squared <= told_speed_ * told_speed_
+                                 ? moved_squared <= room_if_slow * room_if_slow
+                                 : std::sqrt(moved_squared) + std::sqrt(speed_squared) * piece_ <= room;
+        state_.bodies.loads[body] = {v, (v - start) * frequency, pressings_[k], is_told};
+        if (!is_told) findings.bodies.push_back(body);
     });
     collect(untold_);
 }
@@ -611,8 +636,10 @@ void Pile<Real>::arrive(double at) {
         advance_leaner(k, at);
         place(k);
         carried_[k] = 0;
-        movers_[k].v = before_[k] = state_.bodies.motion[bodies_[k]].v;
-        mark(k, findings);
+        pressings_[k] = 0;
+        movers_[k].v = entered_[k] = state_.bodies.motion[bodies_[k]].v;
+        if (mark(k)) findings.has_fast = true;
+        if (is_far(k)) findings.has_far = true;
     });
     collect(untold_);
 }
@@ -620,30 +647,46 @@ void Pile<Real>::arrive(double at) {
 /// What the hard pass leaves of the velocities; those whom no contact with a moving body carried or pushed are let go.
 template <class Real>
 void Pile<Real>::come_to_rest() {
+    const bool had_far = has_far_;
     for_each_leaner([this](Findings& findings, std::size_t k) {
-        put(k);
-        shares_[k] += movers_[k].v - before_[k];
-        if (carried_[k] != 0) return;
-        marks_[k] = gone;
         const Index body = bodies_[k];
+        state_.bodies.motion[body].v = movers_[k].v;
+        shares_[k] += movers_[k].v - entered_[k];
+        if (carried_[k] != 0) return;
+        enter(k, movers_[k].v);
+        marks_[k] = gone;
         state_.bodies.kind[body] = Kind::free;
         state_.bodies.loads[body] = {};
         findings.bodies.push_back(body);
     });
     collect(released_);
+    has_far_ = had_far;
     if (!released_.empty()) all_marks_ |= gone;
 }
 
-/// Gives a body its velocity, and enters what that changed.
+/// Brings a body to time `at`.
 template <class Real>
-void Pile<Real>::put(std::size_t leaner) {
-    const Index body = bodies_[leaner];
-    state_.bodies.motion[body].v = movers_[leaner].v;
-    const auto mass = static_cast<double>(state_.bodies.mass[body]);
-    const Vec3 before = to_double(before_[leaner]);
-    const Vec3 after = to_double(movers_[leaner].v);
+void Pile<Real>::advance_leaner(std::size_t leaner, double at) {
+    Motion<Real>& m = state_.bodies.motion[bodies_[leaner]];
+    const double duration = at - m.t;
+    const Int3 start = m.x;
+    move_on(m, {}, at, state_.resolution);
+    Entry entry;
+    // What creeps by less than the resolution stays, and gravity does no work on it.
+    book_piled_way(state_, bodies_[leaner], to_metres(m.x - start, state_.resolution), duration, entry);
+    accounts_[leaner].lost += entry.lost_to_restitution;
+    accounts_[leaner].held_mass_time += entry.held_mass_time;
+}
+
+/// Enters what has changed a body's velocity since that was entered, but for impacts.
+template <class Real>
+void Pile<Real>::enter(std::size_t leaner, const Vector& v) {
+    const auto mass = static_cast<double>(state_.bodies.mass[bodies_[leaner]]);
+    const Vec3 before = to_double(entered_[leaner]);
+    const Vec3 after = to_double(v);
     accounts_[leaner].momentum += (after - before) * mass;
     accounts_[leaner].lost += 0.5 * mass * dot(before - after, before + after);
+    entered_[leaner] = v;
 }
 
 template <class Real>

@@ -104,6 +104,8 @@ private:
 
     // The list.
     void start_list(double from);
+    [[nodiscard]] double wanted_margin() const;
+    [[nodiscard]] double unlisted_approach() const;
     void gather();
     void resume_list();
     bool take_back(double from);
@@ -145,8 +147,9 @@ private:
     void arrive(double at);
     void come_to_rest();
     void place(std::size_t leaner);
-    void mark(std::size_t leaner, Findings& findings);
-    void put(std::size_t leaner);
+    [[nodiscard]] bool is_far(std::size_t leaner) const;
+    bool mark(std::size_t leaner);
+    void enter(std::size_t leaner, const Vector& v);
     void settle_accounts();
 
     State<Real>& state_;
@@ -161,8 +164,8 @@ private:
 
     // Per leaner.
     std::vector<Index> bodies_;
-    std::vector<Vector> before_; ///< m/s, when the passes began
-    std::vector<Vector> shares_; ///< m/s, what the contacts gave it in the piece
+    std::vector<Vector> entered_; ///< m/s, the velocity up to which changes are in the accounts
+    std::vector<Vector> shares_;  ///< m/s, what the contacts gave it in the piece
     std::vector<Account> accounts_;
     // Per mover.
     LineVector<Mover<Real>> movers_;
@@ -176,7 +179,6 @@ private:
 
     // The step.
     double told_speed_ = 0; ///< m/s
-    double margin_ = 0;     ///< m, gaps up to this are listed
     double far_ = 0;        ///< m, that a body may move until the list does no longer for it
 
     // The piece.

@@ -124,6 +124,7 @@ struct Bodies {
     std::vector<ListedBody> listed;           ///< whose contacts are listed
     std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
     double list_age = 0;                      ///< s since it was made
+    double list_margin = 0;                   ///< m, gaps up to this are in it
     std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet

@@ -243,7 +243,7 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
     archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed,
-            b.contacts, b.list_age, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
+            b.contacts, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
             last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
@@ -380,6 +380,7 @@ bool Engine<Real>::contacts_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     check_not_negative(b.piece_rate, "piece_rate");
     check_not_negative(b.list_age, "list_age");
+    check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
     std::vector<bool> is_listed(b.slots.size(), false);
     for (const ListedBody& l : b.listed) {
@@ -422,7 +423,7 @@ std::uint64_t Engine<Real>::hash() const {
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
-    hasher(state_.bodies.piece_rate, state_.bodies.list_age);
+    hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin);
     for (const ContactForce& c : state_.bodies.contacts) {
         hasher(c.a, c.code, c.normal);
         hasher.vector(c.friction);
