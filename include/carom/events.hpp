@@ -54,6 +54,7 @@ struct StepReport {
     std::uint64_t predictions = 0;    ///< times of impact computed
     std::uint64_t tc_conversions = 0; ///< impacts made elastic by the TC rule against inelastic collapse
     std::uint64_t held = 0;           ///< bodies that something carries, at the end: see World::held()
+    std::uint64_t asleep = 0;         ///< of these, bodies that have lain still for long
     std::uint64_t contacts = 0;       ///< what carries them: pairs that touch, or a body and a face, at the end
     std::uint32_t pieces = 0;     ///< that contacts between moving bodies had the step cut into; 0 if there were none
     std::uint32_t windows = 0;    ///< that the impacts had it cut into

@@ -49,6 +49,9 @@ struct WorldOptions {
     std::vector<MaterialRule> material_rules{};
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;
+    /// Piles that have lain still for half a second fall asleep, each for itself: they cost next to nothing until
+    /// something meets them. What is slower than 1/1000 of gravity times rest_time lies still.
+    bool sleeping = true;
     /// s, > 0: TC rule. After 8 impacts with flights shorter than this, further ones are elastic until a longer flight.
     /// Under gravity also how long bodies touch that lean on each other; longer where the resolution asks for it.
     double collapse_time = 1e-5;

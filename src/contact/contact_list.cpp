@@ -61,8 +61,10 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
     clear_for_reuse(statics_);
     CensusTaker taker;
     for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] == Kind::fixed) statics_.push_back(i);
-        if (bodies.kind[i] == Kind::fixed || places_[i] != nobody) taker.count(bodies.motion[i], bodies.kind[i]);
+        const bool is_leaner = places_[i] != nobody;
+        if (!is_leaner && !is_still(bodies.kind[i])) continue;
+        if (!is_leaner) statics_.push_back(i);
+        taker.count(bodies.motion[i], bodies.kind[i]);
     }
     const Census census = taker.census();
     ticks_ = Ticks(state_.bounds, state_.resolution, std::max(4 * census.mean_radius, state_.resolution.metres));
@@ -94,7 +96,7 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
 template <class Real>
 void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, double margin) const {
     const Bodies<Real>& bodies = state_.bodies;
-    const bool is_static = bodies.kind[b] == Kind::fixed;
+    const bool is_static = is_still(bodies.kind[b]);
     // Of two leaners both have the other in their lists.
     if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
     const Motion<Real>& m_a = bodies.motion[a];

@@ -39,7 +39,7 @@ class ContactList {
 public:
     explicit ContactList(State<Real>& state) : state_(state) {}
 
-    /// Lists all that the leaners are nearer to than `margin` (m).
+    /// Lists all that the leaners are nearer to than `margin` (m), bodies that are asleep among it.
     void find(Executor& executor, double margin);
     /// Lists what Bodies::contacts names.
     void recall(double margin);
@@ -145,7 +145,7 @@ private:
 
     // Room to make the list in.
     std::vector<std::uint32_t> places_; ///< per body: in Bodies::listed, or nobody
-    std::vector<Index> statics_;
+    std::vector<Index> statics_; ///< and bodies that are asleep
     Ticks ticks_;
     Neighbours neighbours_;
     std::array<std::vector<Found>, most_parts> found_in_part_;

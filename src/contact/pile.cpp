@@ -98,6 +98,8 @@ void Pile<Real>::begin_step() {
     has_values_ = false;
     bearing_ = 0;
     solver_ = &group_solver<Real>();
+    constexpr double still_part = 1e-3;
+    still_speed_ = still_part * length(state_.laws.gravity) * state_.laws.rest_time;
     told_speed_ = 0.5 * striking_speed(0, 0, state_.laws);
     far_ = 0.5 * state_.bodies.list_margin;
     if (!is_active()) return;
@@ -143,10 +145,16 @@ void Pile<Real>::end_piece(double at) {
 template <class Real>
 void Pile<Real>::end_step(double reached) {
     Bodies<Real>& bodies = state_.bodies;
-    if (has_values_) keep_forces();
+    state_.books.held_mass_time.add(asleep_mass() * reached);
+    if (has_values_) {
+        keep_forces();
+        fall_asleep(reached);
+    }
     if (bodies.newly_piled) advance_newcomers(reached);
     settle_accounts();
+    bearing_ += bodies.sleeping.size();
     bodies.loads.clear();
+    if (!is_listed_) return;
     const bool is_over = std::all_of(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(bodies.listed.size()),
                                      [](std::uint8_t marks) { return (marks & gone) != 0; });
     if (!is_over) return;
@@ -164,17 +172,21 @@ void Pile<Real>::start_list(double from) {
     Bodies<Real>& bodies = state_.bodies;
     if (has_values_) keep_forces();
     settle_accounts();
-    gather();
     has_values_ = false;
-    if (bodies.listed.empty()) return;
-    for_each_leaner([&](Findings&, std::size_t k) {
-        advance_leaner(k, from);
-        bodies.listed[k].x = bodies.motion[bodies_[k]].x;
-    });
     clear_for_reuse(closed_);
-    bodies.list_margin = wanted_margin();
-    far_ = 0.5 * bodies.list_margin;
-    list_.find(*executor_, bodies.list_margin);
+    wake_islands();
+    do {
+        settle_accounts();
+        gather();
+        if (bodies.listed.empty()) return;
+        for_each_leaner([&](Findings&, std::size_t k) {
+            advance_leaner(k, from);
+            bodies.listed[k].x = bodies.motion[bodies_[k]].x;
+        });
+        bodies.list_margin = wanted_margin();
+        far_ = 0.5 * bodies.list_margin;
+        list_.find(*executor_, bodies.list_margin);
+    } while (wake_neighbours());
     is_listed_ = true;
     bodies.list_age = 0;
 }
@@ -200,13 +212,15 @@ double Pile<Real>::unlisted_approach() const {
 template <class Real>
 void Pile<Real>::gather() {
     Bodies<Real>& bodies = state_.bodies;
+    still_.assign(bodies.slots.size(), 0);
+    for (const ListedBody& l : bodies.listed) still_[l.slot] = l.still;
     bodies.listed.clear();
     clear_for_reuse(bodies_);
     bodies.loads.assign(bodies.size(), {});
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] != Kind::piled) continue;
         bodies_.push_back(i);
-        bodies.listed.push_back({.slot = bodies.slot[i]});
+        bodies.listed.push_back({.slot = bodies.slot[i], .still = still_[bodies.slot[i]]});
     }
     accounts_.assign(bodies_.size(), {});
     marks_.assign(bodies_.size(), 0);
@@ -254,7 +268,8 @@ bool Pile<Real>::take_back(double from) {
         if (moved + length(velocity_of(m)) * (from - m.t) > far_) return false;
         returned_.push_back(k);
     }
-    if (listed != size()) return false;
+    const auto piled = std::count(bodies.kind.begin(), bodies.kind.end(), Kind::piled);
+    if (listed != static_cast<std::size_t>(piled)) return false;
     bodies.newly_piled = false;
     if (returned_.empty()) return true;
     if (has_values_) {
@@ -384,6 +399,124 @@ void Pile<Real>::advance_newcomers(double at) {
         advance(state_, i, at, entry);
         accounts_.push_back({.lost = entry.lost_to_restitution, .held_mass_time = entry.held_mass_time});
     }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Sleep
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Bodies with contacts to each other, listed ones that bear nothing among them, are an island. It falls asleep when
+/// all of it has lain still for long: looked for ten times a second.
+template <class Real>
+void Pile<Real>::fall_asleep(double reached) {
+    constexpr double long_enough = 0.5;
+    constexpr double looks = 10;
+    Bodies<Real>& bodies = state_.bodies;
+    const bool is_due = std::floor(bodies.list_age * looks) != std::floor((bodies.list_age - reached) * looks);
+    if (!is_due || !state_.laws.sleeping || !state_.laws.fields.empty() || bodies.newly_piled) return;
+    const auto sleeps = [](const ListedBody& l) { return l.still >= long_enough; };
+    if (std::none_of(bodies.listed.begin(), bodies.listed.end(), sleeps)) return;
+    islands_.start(bodies_.size());
+    for (const ContactName& name : list_.names()) {
+        const ContactGroup<Real>& group = list_.group_of(name);
+        if (group.b[name.lane()] < bodies_.size()) islands_.unite(group.a[name.lane()], group.b[name.lane()]);
+    }
+    wakeful_.assign(bodies_.size(), false);
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+        if ((marks_[k] & gone) != 0 || !sleeps(bodies.listed[k])) wakeful_[islands_.root(k)] = true;
+    }
+    bool sleeps_any = false;
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+        if (wakeful_[islands_.root(k)]) continue;
+        sleeps_any = true;
+        enter(k, {});
+        bodies.motion[bodies_[k]].v = {};
+        bodies.kind[bodies_[k]] = Kind::asleep;
+    }
+    if (sleeps_any) leave_sleepers();
+}
+
+/// Takes those who have fallen asleep off the list.
+template <class Real>
+void Pile<Real>::leave_sleepers() {
+    Bodies<Real>& bodies = state_.bodies;
+    settle_accounts();
+    const auto is_asleep = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]] == Kind::asleep; };
+    for (const ContactForce& force : bodies.contacts) {
+        if (is_asleep(force.a) && force.normal > 0) bodies.sleeping.push_back(force);
+    }
+    std::erase_if(bodies.contacts, [&](const ContactForce& force) { return is_asleep(force.a); });
+    std::erase_if(bodies.listed, [&](const ListedBody& l) { return is_asleep(l.slot); });
+    bearing_ = static_cast<std::size_t>(std::count_if(bodies.contacts.begin(), bodies.contacts.end(),
+                                                      [](const ContactForce& force) { return force.normal > 0; }));
+    if (bodies.listed.empty()) bodies.contacts.clear();
+    is_listed_ = has_values_ = false;
+    asleep_mass_.reset();
+}
+
+/// Wakes the islands of those who have been woken, or who are gone.
+template <class Real>
+void Pile<Real>::wake_islands() {
+    Bodies<Real>& bodies = state_.bodies;
+    if (bodies.sleeping.empty()) return;
+    const auto kind_of = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]]; };
+    const auto has_other = [&](const ContactForce& force) {
+        return (force.code & Support::wall_bit) == 0 && kind_of(force.code) != Kind::fixed;
+    };
+    islands_.start(bodies.slots.size());
+    for (const ContactForce& force : bodies.sleeping) {
+        if (has_other(force)) islands_.unite(force.a, force.code);
+    }
+    wakeful_.assign(bodies.slots.size(), false);
+    const auto note = [&](std::uint32_t slot) {
+        if (kind_of(slot) != Kind::asleep) wakeful_[islands_.root(slot)] = true;
+    };
+    for (const ContactForce& force : bodies.sleeping) {
+        note(force.a);
+        if (has_other(force)) note(force.code);
+    }
+    const auto wakes = [&](const ContactForce& force) { return wakeful_[islands_.root(force.a)]; };
+    for (const ContactForce& force : bodies.sleeping) {
+        if (!wakes(force)) continue;
+        wake(bodies, bodies.slots[force.a]);
+        if (has_other(force)) wake(bodies, bodies.slots[force.code]);
+        bodies.contacts.push_back(force);
+    }
+    std::erase_if(bodies.sleeping, wakes);
+    asleep_mass_.reset();
+}
+
+/// Wakes the islands that the list has found near those who are awake; whether there were any.
+template <class Real>
+bool Pile<Real>::wake_neighbours() {
+    Bodies<Real>& bodies = state_.bodies;
+    bool finds_any = false;
+    for (const ContactName& name : list_.names()) {
+        if (!name.is_wall()) finds_any = wake(bodies, bodies.slots[name.code]) || finds_any;
+    }
+    if (finds_any) wake_islands();
+    return finds_any;
+}
+
+/// kg, of those who are asleep: what gravity gives them, what they lie on takes.
+template <class Real>
+double Pile<Real>::asleep_mass() {
+    const Bodies<Real>& bodies = state_.bodies;
+    if (bodies.sleeping.empty()) return 0;
+    if (asleep_mass_ && asleep_ == asleep()) return *asleep_mass_;
+    ExactSum sum; // the same in any order
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] == Kind::asleep) sum.add(static_cast<double>(bodies.mass[i]));
+    }
+    asleep_ = asleep();
+    asleep_mass_ = sum.value();
+    return *asleep_mass_;
+}
+
+template <class Real>
+std::size_t Pile<Real>::asleep() const {
+    const std::vector<Kind>& kinds = state_.bodies.kind;
+    return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), Kind::asleep));
 }
 
 /// Enters into the books what has happened to the bodies since they were gathered: exactly, so that their order in
@@ -652,6 +785,8 @@ void Pile<Real>::come_to_rest() {
         const Index body = bodies_[k];
         state_.bodies.motion[body].v = movers_[k].v;
         shares_[k] += movers_[k].v - entered_[k];
+        double& still = state_.bodies.listed[k].still;
+        still = length_squared(to_double(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
         if (carried_[k] != 0) return;
         enter(k, movers_[k].v);
         marks_[k] = gone;
@@ -692,7 +827,7 @@ void Pile<Real>::enter(std::size_t leaner, const Vector& v) {
 template <class Real>
 std::size_t Pile<Real>::size() const {
     const Bodies<Real>& bodies = state_.bodies;
-    return static_cast<std::size_t>(std::count(bodies.kind.begin(), bodies.kind.end(), Kind::piled));
+    return static_cast<std::size_t>(std::count_if(bodies.kind.begin(), bodies.kind.end(), leans));
 }
 
 template class Pile<float>;

@@ -10,11 +10,13 @@
 #pragma once
 
 #include "contact/contact_list.hpp"
+#include "contact/disjoint_sets.hpp"
 #include "contact/rest.hpp"
 #include "space/window.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,8 +35,9 @@ public:
     void begin_step();
     /// Whether bodies are piled: to be asked between pieces.
     [[nodiscard]] bool is_active() const { return !state_.bodies.listed.empty() || state_.bodies.newly_piled; }
-    /// Bodies, after end_step().
+    /// Bodies, those that are asleep among them.
     [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] std::size_t asleep() const;
     /// Contacts that bear something, after end_step().
     [[nodiscard]] std::size_t contacts() const { return bearing_; }
     /// Start of a piece [from, to] (s since the start of the step): sets the velocities of the piled bodies.
@@ -116,6 +119,13 @@ private:
     void note_pressings();
     void advance_newcomers(double at);
 
+    // Sleep.
+    void fall_asleep(double reached);
+    void leave_sleepers();
+    void wake_islands();
+    bool wake_neighbours();
+    [[nodiscard]] double asleep_mass();
+
     // Contacts.
     [[nodiscard]] ContactRun<Real> run_of(std::span<ContactGroup<Real>> groups);
     template <class F>
@@ -161,6 +171,8 @@ private:
     bool has_values_ = false;  ///< impulses and the like are those of the step
     bool has_far_ = false;     ///< someone has moved too far for the list
     std::size_t bearing_ = 0;
+    std::optional<double> asleep_mass_; ///< kg
+    std::size_t asleep_ = 0;            ///< bodies that make it up
 
     // Per leaner.
     std::vector<Index> bodies_;
@@ -178,8 +190,9 @@ private:
     std::uint8_t all_marks_ = 0;
 
     // The step.
-    double told_speed_ = 0; ///< m/s
-    double far_ = 0;        ///< m, that a body may move until the list does no longer for it
+    double still_speed_ = 0; ///< m/s, what is slower lies still
+    double told_speed_ = 0;  ///< m/s
+    double far_ = 0;         ///< m, that a body may move until the list does no longer for it
 
     // The piece.
     double piece_ = 0;         ///< s
@@ -192,6 +205,9 @@ private:
     // Room to work in.
     std::array<Findings, most_parts> findings_;
     std::vector<std::uint32_t> returned_;
+    std::vector<double> still_; ///< s, per slot
+    DisjointSets islands_;
+    std::vector<bool> wakeful_; ///< per root of an island
     std::vector<double> losses_; ///< J, per bundle
     std::vector<std::uint32_t> first_forces_;
     std::vector<std::uint32_t> force_order_;

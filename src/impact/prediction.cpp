@@ -136,7 +136,7 @@ double predict_in_order(const State<Real>& state, const Path<Real>& a, const Pat
 /// Whether contacts keep two bodies apart, unless one strikes the other.
 template <class Real>
 bool is_in_pile(const Path<Real>& a, const Path<Real>& b) {
-    const auto can_be = [](Kind kind) { return kind == Kind::piled || kind == Kind::fixed; };
+    const auto can_be = [](Kind kind) { return leans(kind) || kind == Kind::fixed; };
     return (a.kind == Kind::piled && can_be(b.kind)) || (b.kind == Kind::piled && can_be(a.kind));
 }
 
@@ -185,7 +185,7 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
     if (both_free && !state.bounds.any_periodic()) {
         return predict_free_pair(state, bodies.motion[i], bodies.motion[j], until);
     }
-    if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
+    if (is_still(bodies.kind[i]) && is_still(bodies.kind[j])) return no_impact;
     if (rests_on(bodies, i, bodies.slot[j]) || rests_on(bodies, j, bodies.slot[i])) return no_impact;
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
@@ -193,7 +193,7 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const Bodies<Real>& bodies = state.bodies;
-    if (rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
+    if (bodies.kind[body] == Kind::asleep || rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
     const Motion<Real>& m = bodies.motion[body];
     const Bounds::Wall& face = state.bounds.walls()[wall];
     const Vec3 a = acceleration_of(state, body);

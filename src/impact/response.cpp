@@ -300,7 +300,7 @@ template <class Real>
 bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& n, double e) {
     const Bodies<Real>& bodies = state.bodies;
     if (state.laws.gravity == Vec3{} || (!rests(bodies.kind[a]) && !rests(bodies.kind[b]))) return false;
-    if (bodies.kind[a] == Kind::piled && bodies.kind[b] == Kind::piled) return false;
+    if (leans(bodies.kind[a]) && leans(bodies.kind[b])) return false;
     const Vec3 pull = pull_on(state, b) - pull_on(state, a);
     const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);
     const double speed = resting_speed(e, pressing, state.laws.rest_time);
@@ -318,6 +318,7 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
         occurrence.piles_up = true;
         return;
     }
+    for (const Index body : {a, b}) occurrence.piles_up = wake(state.bodies, body) || occurrence.piles_up;
     Vec3 v_a = meeting.v_a;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);

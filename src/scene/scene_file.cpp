@@ -87,6 +87,7 @@ void read_world(TableReader table, Scene& scene) {
         options.work_cap = value->count(0, std::numeric_limits<std::int64_t>::max());
     }
     table.read("interpolation", options.interpolation);
+    table.read("sleeping", options.sleeping);
     if (const auto value = table.find("overlap")) {
         constexpr std::array<std::string_view, 2> names{"refuse", "accept"};
         scene.overlap = value->choice(names) == 0 ? Overlap::refuse : Overlap::accept;

@@ -27,10 +27,15 @@ enum class Kind : std::uint8_t {
     fixed, ///< nothing: a static body
     held,  ///< its Hold: it rests against faces or static bodies
     piled, ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
+    asleep, ///< nothing: it is piled, but its whole island has lain still until something arrives
 };
 
+/// Whether a body leans on others that may move.
+constexpr bool leans(Kind kind) { return kind == Kind::piled || kind == Kind::asleep; }
 /// Whether something carries a body, so that it is not in free flight.
-constexpr bool rests(Kind kind) { return kind == Kind::held || kind == Kind::piled; }
+constexpr bool rests(Kind kind) { return kind == Kind::held || leans(kind); }
+/// Whether nothing moves a body unless it is struck.
+constexpr bool is_still(Kind kind) { return kind == Kind::fixed || kind == Kind::asleep; }
 
 /// Counts a body's impacts in quick succession: state of the TC rule and of the jam rule.
 struct Flight {
@@ -94,7 +99,8 @@ struct ContactForce {
 /// A piled body where it was when its contacts were listed.
 struct ListedBody {
     std::uint32_t slot = 0;
-    Int3 x{}; ///< units
+    Int3 x{};         ///< units
+    double still = 0; ///< s, how long it has lain still
 };
 
 /// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.
@@ -125,6 +131,7 @@ struct Bodies {
     std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
     double list_age = 0;                      ///< s since it was made
     double list_margin = 0;                   ///< m, gaps up to this are in it
+    std::vector<ContactForce> sleeping;       ///< contacts of the bodies that are asleep
     std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
@@ -176,6 +183,27 @@ template <class Real>
 void pile_up(Bodies<Real>& bodies, Index index) {
     if (bodies.kind[index] == Kind::held) bodies.holds.erase(bodies.slot[index]);
     bodies.kind[index] = Kind::piled;
+    bodies.newly_piled = true;
+}
+
+/// Wakes a body that something meets; the others of its island are woken with the next piece.
+template <class Real>
+bool wake(Bodies<Real>& bodies, Index index) {
+    if (bodies.kind[index] != Kind::asleep) return false;
+    pile_up(bodies, index);
+    return true;
+}
+
+/// Wakes all, since what they lie on may have changed.
+template <class Real>
+void wake_all(Bodies<Real>& bodies) {
+    if (bodies.sleeping.empty()) return;
+    for (Kind& kind : bodies.kind) {
+        if (kind == Kind::asleep) kind = Kind::piled;
+    }
+    bodies.contacts.insert(bodies.contacts.end(), bodies.sleeping.begin(), bodies.sleeping.end());
+    bodies.sleeping.clear();
+    bodies.listed.clear();
     bodies.newly_piled = true;
 }
 

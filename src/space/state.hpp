@@ -28,6 +28,7 @@ struct Laws {
     double quick_time = 0;    ///< s, of the TC rule: shorter flights are quick
     double contact_time = 0;  ///< s, how long bodies that lean on each other touch; 0 without gravity
     double collapse_time = 0; ///< s, how long an impact is remembered
+    bool sleeping = true;     ///< islands that lie still fall asleep
     double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
     std::vector<MaterialRule> rules{};
     std::vector<PointField> fields{};
@@ -108,6 +109,7 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
         return hold_of(state.bodies, i).acceleration;
     case Kind::fixed:
     case Kind::piled:
+    case Kind::asleep:
         break;
     }
     return {};
@@ -207,7 +209,7 @@ void advance(State<Real>& state, Index i, double s, Entry& entry) {
     const Int3 start = m.x;
     const Vec3 d = move_on(m, a, s, state.resolution);
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
-    if (state.bodies.kind[i] == Kind::piled) {
+    if (leans(state.bodies.kind[i])) {
         // What creeps by less than the resolution stays, and gravity does no work on it.
         book_piled_way(state, i, to_metres(m.x - start, state.resolution), duration, entry);
     }

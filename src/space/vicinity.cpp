@@ -323,7 +323,7 @@ double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& accel
 template <class Real>
 auto Vicinity<Real>::telling_of(Index body) const -> Telling {
     const Bodies<Real>& bodies = state_.bodies;
-    if (bodies.kind[body] == Kind::fixed) return {.unless_struck = true, .if_slow = true};
+    if (is_still(bodies.kind[body])) return {.unless_struck = true, .if_slow = true};
     if (bodies.kind[body] != Kind::piled || body >= bodies.loads.size() || !bodies.loads[body].is_told) return {};
     const Motion<Real>& m = bodies.motion[body];
     return {.unless_struck = m.v == bodies.loads[body].given,

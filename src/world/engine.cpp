@@ -93,6 +93,7 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
     state_.laws.gravity = options.gravity;
     state_.laws.rest_time = options.rest_time;
+    state_.laws.sleeping = options.sleeping;
     state_.laws.quick_time = options.collapse_time;
     set_contact_time(state_.laws, state_.resolution);
     state_.laws.rules = options.material_rules;
@@ -114,6 +115,7 @@ void Engine<Real>::set_gravity(const Vec3& gravity) {
     check_finite(gravity, "gravity");
     setting_.options.gravity = state_.laws.gravity = gravity;
     set_contact_time(state_.laws, state_.resolution);
+    wake_all(state_.bodies);
     drop_contact_list(state_.bodies);
     islands_.vicinity().forget();
 }
@@ -140,6 +142,7 @@ void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
     }
     attractors_.assign(attractors.begin(), attractors.end());
     attractor_places_ = std::move(places);
+    if (!attractors_.empty()) wake_all(state_.bodies);
 }
 
 template <class Real>

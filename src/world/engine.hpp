@@ -106,6 +106,8 @@ private:
     void note_places(const std::vector<Index>& indices);
     void check_moved(const std::vector<Index>& indices);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
+    [[nodiscard]] std::vector<Kind> kinds_of(std::span<const Index> indices) const;
+    void wake_all_for(std::span<const Kind> kinds);
     void drop_attractors_of(BodyId id);
     [[nodiscard]] Vec3 metres_from(const Int3& zero, const Int3& x) const {
         return {metres_between(zero.x, x.x, setting_.resolution), metres_between(zero.y, x.y, setting_.resolution),
@@ -128,6 +130,8 @@ private:
     Progress resolve_piece(const Census& census, const Window& all, std::uint32_t windows);
     Progress resolve_window(const Census& census, const Window& window);
     /// Drag or attractors change velocities at the ends of steps.
+    [[nodiscard]] bool is_asleep() const;
+    const StepReport& sleep_on(double dt);
     [[nodiscard]] bool has_kicks() const;
     void start_holds(double dt);
     /// Bodies were changed from outside.

@@ -251,7 +251,10 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
     }
     for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
     const bool has_static = std::any_of(columns.mass.begin(), columns.mass.end(), [](double m) { return std::isinf(m); });
-    if (has_static) drop_contact_list(state_.bodies);
+    if (has_static) {
+        wake_all(state_.bodies);
+        drop_contact_list(state_.bodies);
+    }
     return ids;
 }
 
@@ -357,13 +360,10 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     const std::vector<Index> indices = indices_of(ids);
     check_static_rule(columns, indices);
     forget_sums();
-    const std::vector<Kind> former_kinds = [&] {
-        std::vector<Kind> kinds(indices.size());
-        for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
-        return kinds;
-    }();
+    const std::vector<Kind> former_kinds = kinds_of(indices);
     move_bodies(columns, indices, overlap);
     write_columns(columns, indices);
+    wake_all_for(former_kinds);
     const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
     const bool meets_otherwise =
         !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
@@ -389,6 +389,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
                     static_cast<std::size_t>(ids.rend() - last) - 1);
     }
     islands_.vicinity().forget();
+    wake_all_for(kinds_of(indices_of(ids)));
     for (const BodyId id : ids) {
         forget_sums();
         const Index index = state_.bodies.slots[id.slot];
@@ -398,6 +399,19 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         if (index < size()) placement_.note(index, index);
     }
     drop_stale_contacts(state_.bodies);
+}
+
+template <class Real>
+std::vector<Kind> Engine<Real>::kinds_of(std::span<const Index> indices) const {
+    std::vector<Kind> kinds(indices.size());
+    for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
+    return kinds;
+}
+
+/// Wakes everybody if one of some bodies was asleep, or others may lie on it.
+template <class Real>
+void Engine<Real>::wake_all_for(std::span<const Kind> kinds) {
+    if (std::any_of(kinds.begin(), kinds.end(), is_still)) wake_all(state_.bodies);
 }
 
 template <class Real>
@@ -434,6 +448,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
         for (std::size_t j = k + 1; j-- > 0;) bodies.motion[indices[j]].v = formers[j];
         throw Error(ErrorCode::out_of_range, field, "the velocity does not fit the world's precision", k);
     }
+    wake_all_for(kinds_of(indices));
     for (const Index i : indices) {
         let_go(bodies, i);
         islands_.vicinity().disturb(i);

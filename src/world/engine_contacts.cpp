@@ -69,13 +69,15 @@ template <class Real>
 std::vector<Contact> Engine<Real>::contacts() const {
     std::vector<Contact> contacts;
     contacts.reserve(state_.bodies.contacts.size() + state_.bodies.holds.size());
-    for (const ContactForce& force : state_.bodies.contacts) {
-        if (!(force.normal > 0)) continue;
-        const Index body = state_.bodies.slots[force.a];
-        if (state_.bodies.kind[body] != Kind::piled) continue;
-        Contact& contact = contacts.emplace_back(contact_of(body, force.code));
-        contact.force = force.normal;
-        contact.friction = force.friction;
+    for (const auto* forces : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
+        for (const ContactForce& force : *forces) {
+            if (!(force.normal > 0)) continue;
+            const Index body = state_.bodies.slots[force.a];
+            if (!leans(state_.bodies.kind[body])) continue;
+            Contact& contact = contacts.emplace_back(contact_of(body, force.code));
+            contact.force = force.normal;
+            contact.friction = force.friction;
+        }
     }
     for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
     // A face's id is not set, which is the last of all.

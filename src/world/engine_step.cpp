@@ -102,6 +102,7 @@ const StepReport& Engine<Real>::step(double dt) {
                     "must be at most " + shown(Clock::longest_interval) + " s, got " + shown(dt));
     }
     state_.laws.fields = placed_fields();
+    if (is_asleep()) return sleep_on(dt);
     const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
     begin_step(dt);
@@ -119,6 +120,24 @@ const StepReport& Engine<Real>::step(double dt) {
     last_kick(reached - 0.5 * dt);
     finish_step(dt, reached);
     report_.seconds.forces += watch.lap();
+    return report_;
+}
+
+/// Whether nothing can happen.
+template <class Real>
+bool Engine<Real>::is_asleep() const {
+    const std::vector<Kind>& kinds = state_.bodies.kind;
+    return !state_.bodies.sleeping.empty() && std::all_of(kinds.begin(), kinds.end(), is_still);
+}
+
+/// A step in which nothing happens.
+template <class Real>
+const StepReport& Engine<Real>::sleep_on(double dt) {
+    begin_step(dt);
+    pile_.begin_step();
+    pile_.end_step(dt);
+    for (RecentFlight& recent : state_.bodies.recent_flights) recent.flight.last_impact -= dt;
+    finish_step(dt, dt);
     return report_;
 }
 
@@ -335,6 +354,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     report_.face_impacts = outcome_.face_impacts;
     report_.tc_conversions = outcome_.tc_conversions;
     report_.held = state_.bodies.holds.size() + pile_.size();
+    report_.asleep = pile_.asleep();
     report_.contacts = pile_.contacts();
     for (const auto& [slot, hold] : state_.bodies.holds) report_.contacts += hold.supports.size();
     ledger_.impacts += outcome_.impacts;

@@ -98,7 +98,7 @@ template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
     archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
             o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference, o.record_impacts,
-            o.least_recorded_impulse, o.interpolation);
+            o.least_recorded_impulse, o.interpolation, o.sleeping);
 }
 
 template <class Archive, class Real>
@@ -151,7 +151,7 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 
 template <class Archive>
 void transfer(Archive& archive, ListedBody& listed) {
-    archive(listed.slot, listed.x);
+    archive(listed.slot, listed.x, listed.still);
 }
 
 template <class Archive>
@@ -243,7 +243,7 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
     archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed,
-            b.contacts, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
+            b.contacts, b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
             last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
@@ -339,7 +339,7 @@ bool Engine<Real>::bodies_are_sound() const {
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
         const bool fixed = b.kind[i] == Kind::fixed;
-        if (b.kind[i] > Kind::piled || !(mass > 0) || std::isinf(mass) != fixed) return false;
+        if (b.kind[i] > Kind::asleep || !(mass > 0) || std::isinf(mass) != fixed) return false;
         if (fixed && velocity_of(m) != Vec3{}) return false;
         if ((b.kind[i] == Kind::held) != b.holds.contains(b.slot[i])) return false;
     }
@@ -382,21 +382,28 @@ bool Engine<Real>::contacts_are_sound() const {
     check_not_negative(b.list_age, "list_age");
     check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
+    const auto is_asleep = [&](std::uint32_t slot) { return exists(slot) && b.kind[b.slots[slot]] == Kind::asleep; };
     std::vector<bool> is_listed(b.slots.size(), false);
     for (const ListedBody& l : b.listed) {
-        if (!exists(l.slot) || is_listed[l.slot] || b.kind[b.slots[l.slot]] == Kind::fixed) return false;
+        check_not_negative(l.still, "listed");
+        if (!exists(l.slot) || is_listed[l.slot] || is_still(b.kind[b.slots[l.slot]])) return false;
         is_listed[l.slot] = true;
     }
     const auto can_bear = [&](std::uint32_t slot) {
         return exists(slot) && (b.listed.empty() || is_listed[slot] || b.kind[b.slots[slot]] == Kind::fixed);
     };
-    return std::all_of(b.contacts.begin(), b.contacts.end(), [&](const ContactForce& c) {
-        check_not_negative(c.normal, "contact");
-        check_finite(c.friction, "contact");
-        const bool is_wall = (c.code & Support::wall_bit) != 0;
-        return can_bear(c.a) && b.kind[b.slots[c.a]] != Kind::fixed &&
-               (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : can_bear(c.code));
-    });
+    const auto are_sound = [&](const std::vector<ContactForce>& contacts, const auto& leans, const auto& bears) {
+        return std::all_of(contacts.begin(), contacts.end(), [&](const ContactForce& c) {
+            check_not_negative(c.normal, "contact");
+            check_finite(c.friction, "contact");
+            const bool is_wall = (c.code & Support::wall_bit) != 0;
+            return leans(c.a) &&
+                   (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : bears(c.code));
+        });
+    };
+    const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && b.kind[b.slots[slot]] != Kind::fixed; };
+    const auto is_still_slot = [&](std::uint32_t slot) { return exists(slot) && is_still(b.kind[b.slots[slot]]); };
+    return are_sound(b.contacts, is_awake, can_bear) && are_sound(b.sleeping, is_asleep, is_still_slot);
 }
 
 template <class Real>
@@ -419,14 +426,16 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
-        if (state_.bodies.kind[i] == Kind::piled) hasher(Kind::piled);
+        if (leans(state_.bodies.kind[i])) hasher(state_.bodies.kind[i]);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
     hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin);
-    for (const ContactForce& c : state_.bodies.contacts) {
-        hasher(c.a, c.code, c.normal);
-        hasher.vector(c.friction);
+    for (const auto* contacts : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
+        for (const ContactForce& c : *contacts) {
+            hasher(c.a, c.code, c.normal);
+            hasher.vector(c.friction);
+        }
     }
     for (const auto& [slot, flight] : state_.bodies.recent_flights) {
         hasher(slot, flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);
