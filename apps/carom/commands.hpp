@@ -9,6 +9,7 @@ class App;
 namespace carom::cli {
 
 void add_run_command(CLI::App& app, int& exit_code);
+void add_render_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_validate_command(CLI::App& app, int& exit_code);
