@@ -26,23 +26,31 @@ std::vector<Sound> crowd(std::size_t count) {
     return sounds;
 }
 
-double energy_of(std::span<const Sound> sounds) {
+double loudness(const Sound& sound, const Ear& ear) {
+    const double gain = attenuation(ear, sound.position);
+    return sound.energy * gain * gain;
+}
+
+double loudness(std::span<const Sound> sounds, const Ear& ear) {
     double sum = 0;
-    for (const Sound& sound : sounds) sum += sound.energy;
+    for (const Sound& sound : sounds) sum += loudness(sound, ear);
     return sum;
 }
 
-TEST(Join, KeepsTheEnergyAndTheMeanPlace) {
+TEST(Join, KeepsTheLoudnessAndTheMeanPlace) {
     const std::vector<Sound> sounds = crowd(10000);
-    const std::vector<Sound> joined = join(sounds, {}, all_free, 48000);
-    EXPECT_EQ(joined.size(), 32);
-    EXPECT_NEAR(energy_of(joined) / energy_of(sounds), 1, 1e-12);
-    const auto centre = [](std::span<const Sound> all) {
-        Vec3 sum{};
-        for (const Sound& sound : all) sum += sound.energy * sound.position;
-        return sum / energy_of(all);
-    };
-    EXPECT_LT(length(centre(joined) - centre(sounds)), 1e-12);
+    // In their midst, where the mean of sounds on all sides is next to the ear, and far away.
+    for (const Ear& ear : {Ear{}, Ear{.position = {0, -100, 0}}}) {
+        const std::vector<Sound> joined = join(sounds, ear, all_free, 48000);
+        EXPECT_EQ(joined.size(), 32);
+        EXPECT_NEAR(loudness(joined, ear) / loudness(sounds, ear), 1, 1e-12);
+        const auto centre = [&](std::span<const Sound> all) {
+            Vec3 sum{};
+            for (const Sound& sound : all) sum += loudness(sound, ear) * sound.position;
+            return sum / loudness(all, ear);
+        };
+        EXPECT_LT(length(centre(joined) - centre(sounds)), 1e-10);
+    }
 }
 
 TEST(Join, GivesTheLoudestVoicesOfTheirOwn) {

@@ -29,8 +29,8 @@ struct Heard {
 
 struct Cluster {
     Heard loudest;
-    double energy = 0;
-    Vec3 position_sum{}; ///< weighted by energy, relative to the loudest's
+    double loudness = 0;
+    Vec3 position_sum{}; ///< weighted by loudness, relative to the loudest's
     Vec3 velocity_sum{};
 };
 
@@ -50,17 +50,18 @@ double difference(const Heard& a, const Heard& b, double rate) {
 }
 
 void add(Cluster& cluster, const Heard& heard) {
-    const Sound& sound = *heard.sound;
-    cluster.energy += sound.energy;
-    cluster.position_sum += sound.energy * (sound.position - cluster.loudest.sound->position);
-    cluster.velocity_sum += sound.energy * sound.velocity;
+    cluster.loudness += heard.loudness;
+    cluster.position_sum += heard.loudness * (heard.sound->position - cluster.loudest.sound->position);
+    cluster.velocity_sum += heard.loudness * heard.sound->velocity;
 }
 
-Sound sum(const Cluster& cluster) {
+/// As loud at the ear as all together, though their mean may lie much nearer to it than any of them.
+Sound sum(const Cluster& cluster, const Ear& ear) {
     Sound sound = *cluster.loudest.sound;
-    sound.energy = cluster.energy;
-    sound.position += cluster.position_sum / cluster.energy;
-    sound.velocity = cluster.velocity_sum / cluster.energy;
+    sound.position += cluster.position_sum / cluster.loudness;
+    sound.velocity = cluster.velocity_sum / cluster.loudness;
+    const double gain = attenuation(ear, sound.position);
+    sound.energy = cluster.loudness / (gain * gain);
     return sound;
 }
 
@@ -112,7 +113,7 @@ std::vector<Sound> join(std::span<const Sound> sounds, const Ear& ear, std::span
 
     std::vector<Sound> result;
     result.reserve(clusters.size());
-    for (const Cluster& cluster : clusters) result.push_back(sum(cluster));
+    for (const Cluster& cluster : clusters) result.push_back(sum(cluster, ear));
     std::stable_sort(result.begin(), result.end(), [](const Sound& a, const Sound& b) { return a.start < b.start; });
     return result;
 }

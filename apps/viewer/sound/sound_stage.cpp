@@ -192,7 +192,10 @@ std::vector<Sound> SoundStage::Impl::assign_voices(std::int64_t end) {
     };
     for (std::size_t i = 1; i < bars.size(); ++i) bars[i] = replaced(i + 1) > 0 ? ringing[replaced(i + 1) - 1].first : 0;
 
-    std::vector<Sound> sounds = join(take_due(end), ear, bars, settings_.rate);
+    // First as many as there may be, which then measure themselves against what rings, as loud as they have become.
+    const std::vector<double> no_bars(bars.size());
+    const std::vector<Sound> candidates = join(take_due(end), ear, no_bars, settings_.rate);
+    std::vector<Sound> sounds = join(candidates, ear, bars, settings_.rate);
     for (std::size_t i = 0; i < replaced(sounds.size()); ++i) ringing[i].second->fade(clock_);
     return sounds;
 }
