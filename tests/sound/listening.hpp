@@ -75,26 +75,37 @@ inline double roughness(std::span<const double> samples) {
     return result;
 }
 
-/// Amplitude of `frequency` (Hz) in Hann-windowed samples.
-inline double spectrum_at(std::span<const double> samples, double frequency, double rate) {
-    double real = 0;
-    double imaginary = 0;
+/// Amplitude of `frequency` (Hz) in samples, by Goertzel's recurrence.
+inline double line_at(std::span<const double> samples, double frequency, double rate) {
+    const double turn = 2 * std::cos(2 * std::numbers::pi * frequency / rate);
+    double now = 0;
+    double before = 0;
+    for (const double sample : samples) before = std::exchange(now, sample + turn * now - before);
+    return std::sqrt(std::max(0.0, now * now + before * before - turn * now * before));
+}
+
+/// Under Hann's window, which keeps lines narrow.
+inline std::vector<double> windowed(std::span<const double> samples) {
+    std::vector<double> result;
     const double step = 2 * std::numbers::pi / static_cast<double>(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const double value = samples[i] * (1 - std::cos(step * static_cast<double>(i)));
-        const double angle = 2 * std::numbers::pi * frequency / rate * static_cast<double>(i);
-        real += value * std::cos(angle);
-        imaginary += value * std::sin(angle);
+    for (const double sample : samples) {
+        result.push_back(sample * (1 - std::cos(step * static_cast<double>(result.size()))));
     }
-    return std::hypot(real, imaginary);
+    return result;
+}
+
+/// Amplitude of `frequency` (Hz) in samples under the window.
+inline double spectrum_at(std::span<const double> samples, double frequency, double rate) {
+    return line_at(windowed(samples), frequency, rate);
 }
 
 /// Hz of the strongest line between `low` and `high`, to 1 / 1000 of it.
 inline double main_pitch(std::span<const double> samples, double low, double high, double rate = 48000) {
+    const std::vector<double> window = windowed(samples);
     double best = low;
     double most = 0;
     for (double frequency = low; frequency < high; frequency *= 1.001) {
-        const double amplitude = spectrum_at(samples, frequency, rate);
+        const double amplitude = line_at(window, frequency, rate);
         if (amplitude <= most) continue;
         most = amplitude;
         best = frequency;

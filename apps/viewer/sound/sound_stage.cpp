@@ -33,10 +33,10 @@ Vec3 between(const Vec3& a, const Vec3& b, double part) { return a + part * (b -
 
 Vec3 unit(const Vec3& v) { return v / length(v); }
 
-/// Upright and of length 1, so that two of them can be mixed.
+/// With directions of length 1, so that two of them can be mixed, at right angles: OpenAL takes them for axes as they are.
 Listener normalised(Listener listener) {
     listener.forward = unit(listener.forward);
-    listener.up = unit(listener.up);
+    listener.up = unit(cross(cross(listener.forward, unit(listener.up)), listener.forward));
     return listener;
 }
 
