@@ -1,6 +1,5 @@
-#include "sound/clusters.hpp"
-
 #include "scene/random.hpp"
+#include "viewer/sound/clusters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -114,7 +113,8 @@ TEST(Join, TellsApartWhatAnEarTellsApart) {
 TEST(Join, OpensNothingBelowItsBar) {
     std::vector<Sound> sounds(3);
     for (std::size_t i = 0; i < sounds.size(); ++i) {
-        sounds[i] = {.position = {2.0 * static_cast<double>(i), 0, 0}, .pitch = 880, .energy = 3.0 - static_cast<double>(i)};
+        sounds[i] = {
+            .position = {2.0 * static_cast<double>(i), 0, 0}, .pitch = 880, .energy = 3.0 - static_cast<double>(i)};
     }
     const Ear ear{.position = {2, -10, 0}, .reference_distance = 100};
     EXPECT_EQ(join(sounds, ear, std::vector<double>{0, 1.5, 1.5}, 48000).size(), 2);

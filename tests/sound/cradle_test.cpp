@@ -1,8 +1,8 @@
 // Newton's cradle, heard: each click at its time, and from its place.
 #include "listening.hpp"
 #include "scene/scene.hpp"
-#include "sound/openal.hpp"
-#include "sound/sound_track.hpp"
+#include "viewer/sound/openal.hpp"
+#include "viewer/sound/sound_track.hpp"
 
 #include <gtest/gtest.h>
 
@@ -139,7 +139,8 @@ TEST(NewtonsCradle, ClicksWhereItsImpactsAre) {
             EXPECT_EQ(test::balance(part) > 1, x > performance.listener.position.x) << "at " << click.time << " s";
         }
     }
-    std::printf("figure: Newton's cradle, balance of left and right within %.2f dB of OpenAL's for the places\n", worst);
+    std::printf("figure: Newton's cradle, balance of left and right within %.2f dB of OpenAL's for the places\n",
+                worst);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 /// What the tests of sound do with samples.
 #pragma once
 
-#include "sound/sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +36,7 @@ inline std::vector<float> render(sound::SoundStage& stage, double seconds, int r
     return samples;
 }
 
-inline Stereo listen(sound::SoundStage& stage, double seconds) {
-    return split<float>(render(stage, seconds), 1);
-}
+inline Stereo listen(sound::SoundStage& stage, double seconds) { return split<float>(render(stage, seconds), 1); }
 
 /// One strike alone, from the start.
 inline Stereo hear(const sound::Strike& strike, double seconds, const sound::SoundSettings& settings = {},
@@ -56,9 +54,7 @@ inline double root_mean_square(std::span<const double> samples) {
 }
 
 /// By how much the right channel is louder, as a factor.
-inline double balance(const Stereo& stereo) {
-    return root_mean_square(stereo.right) / root_mean_square(stereo.left);
-}
+inline double balance(const Stereo& stereo) { return root_mean_square(stereo.right) / root_mean_square(stereo.left); }
 
 inline double largest(std::span<const double> samples) {
     double result = 0;

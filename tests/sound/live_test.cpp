@@ -1,4 +1,4 @@
-#include "sound/sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ using namespace std::chrono_literals;
 /// What is said to a speaker of the test, and what it tells.
 struct Room {
     std::mutex mutex;
-    std::vector<float> heard;   ///< all that any speaker took
-    std::size_t wanted = 0;     ///< samples that are asked for
-    bool plugged = true;        ///< there is a device
-    int opened = 0;             ///< how often it was opened
+    std::vector<float> heard; ///< all that any speaker took
+    std::size_t wanted = 0;   ///< samples that are asked for
+    bool plugged = true;      ///< there is a device
+    int opened = 0;           ///< how often it was opened
 };
 
 /// Takes samples as fast as the test asks for them.
@@ -235,13 +235,9 @@ protected:
     std::exit(told && *problem == "sound: there is no sound device" && !sound.audible() ? 0 : 1);
 }
 
-TEST_F(DefaultSpeaker, TakesSamplesInRealTime) {
-    EXPECT_EXIT(play_for_a_moment(), testing::ExitedWithCode(0), "");
-}
+TEST_F(DefaultSpeaker, TakesSamplesInRealTime) { EXPECT_EXIT(play_for_a_moment(), testing::ExitedWithCode(0), ""); }
 
-TEST_F(DefaultSpeaker, ThatIsMissingLeavesSilence) {
-    EXPECT_EXIT(play_to_nobody(), testing::ExitedWithCode(0), "");
-}
+TEST_F(DefaultSpeaker, ThatIsMissingLeavesSilence) { EXPECT_EXIT(play_to_nobody(), testing::ExitedWithCode(0), ""); }
 
 } // namespace
 

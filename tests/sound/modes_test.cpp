@@ -1,6 +1,5 @@
-#include "sound/modes.hpp"
-
 #include "listening.hpp"
+#include "viewer/sound/modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,8 +78,8 @@ TEST(Ring, FallsToOneInEInItsRingTime) {
     // Windows of 20 periods tell the lowest mode from the next.
     const auto window = static_cast<std::size_t>(48000 * 20 / 880.0);
     const std::span<const double> all(samples);
-    const double ratio = test::spectrum_at(all.subspan(delay, window), 880, 48000) /
-                         test::spectrum_at(all.first(window), 880, 48000);
+    const double ratio =
+        test::spectrum_at(all.subspan(delay, window), 880, 48000) / test::spectrum_at(all.first(window), 880, 48000);
     EXPECT_NEAR(ratio, std::exp(-1.0), 0.01);
 }
 

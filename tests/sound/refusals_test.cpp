@@ -1,4 +1,4 @@
-#include "sound/sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <gtest/gtest.h>
 

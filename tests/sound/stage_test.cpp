@@ -1,7 +1,7 @@
 #include "listening.hpp"
 #include "scene/random.hpp"
-#include "sound/modes.hpp"
-#include "sound/sound_stage.hpp"
+#include "viewer/sound/modes.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -110,7 +110,8 @@ TEST(Sound, BeginsWhenItIsDue) {
         Strike strike = ahead;
         strike.delay = delay;
         const Stereo heard = hear(strike, 0.6);
-        const auto first = std::find_if(heard.left.begin(), heard.left.end(), [](double x) { return std::abs(x) > 1e-3; });
+        const auto first =
+            std::find_if(heard.left.begin(), heard.left.end(), [](double x) { return std::abs(x) > 1e-3; });
         const double time = static_cast<double>(first - heard.left.begin()) / 48000;
         // The limiter takes 1 ms, and the ring a few samples to rise.
         EXPECT_NEAR(time, delay + 0.001, 0.0003) << delay;
@@ -180,7 +181,8 @@ TEST(Voices, AreTakenAwayWithoutAClick) {
     const Stereo heard = test::listen(stage, 0.01);
     ASSERT_EQ(stage.voices(), 32);
     // 32 rings, the start of one, and the two ends of a straight fade over 240 samples.
-    const double bound = 32 * amplitude(1) * curvature().ringing + amplitude(1.5) * curvature().onset + amplitude(1) / 240;
+    const double bound =
+        32 * amplitude(1) * curvature().ringing + amplitude(1.5) * curvature().onset + amplitude(1) / 240;
     EXPECT_LE(test::roughness(heard.left), bound);
     EXPECT_LE(test::roughness(heard.right), bound);
 }
@@ -196,7 +198,9 @@ TEST(Voices, FollowACutBetweenCamerasWithoutAClick) {
     const Stereo after = test::listen(stage, 0.1);
     before.left.insert(before.left.end(), after.left.begin(), after.left.end());
     before.right.insert(before.right.end(), after.right.begin(), after.right.end());
-    EXPECT_LT(test::balance({{after.left.begin() + 2400, after.left.end()}, {after.right.begin() + 2400, after.right.end()}}), 0.01);
+    EXPECT_LT(
+        test::balance({{after.left.begin() + 2400, after.left.end()}, {after.right.begin() + 2400, after.right.end()}}),
+        0.01);
     // On its way the ear passes the source, where the gain goes from side to side within a fifth of the way.
     const double bound = 0.25 * (curvature().onset + 5.0 / 480);
     EXPECT_LE(test::roughness(before.left), bound);
@@ -218,7 +222,8 @@ TEST(Voices, OfTenThousandImpactsAFrameAreSixtyFour) {
     EXPECT_GE(most, most_voices / 2);
     EXPECT_LT(test::largest(left), 1);
     // A sound is at most as loud as all of its piece (1/120 s) together, and the 32 of one piece have at most sqrt(32)
-    // times that amplitude. So ring or fade up to 32, of as many pieces, and those that are new, of which each may start.
+    // times that amplitude. So ring or fade up to 32, of as many pieces, and those that are new, of which each may
+    // start.
     const double piece = amplitude(1e-5) * std::sqrt(10000 / 2.0);
     const double bound = piece * ((32 + std::sqrt(32)) * (curvature().ringing + 1.0 / 240) + curvature().onset);
     EXPECT_LE(test::roughness(left), bound);

@@ -1,7 +1,7 @@
-#include "sound/sound_track.hpp"
-
+#include "listening.hpp"
 #include "scene/atomic_file.hpp"
 #include "scene/temporary_folder.hpp"
+#include "viewer/sound/sound_track.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,6 +86,19 @@ TEST(SoundTrack, IsNearlyTheSameForAnySteps) {
     EXPECT_NEAR(static_cast<double>(first(coarse)), static_cast<double>(first(fine)), 4);
 }
 
+TEST(SoundTrack, InSlowMotionIsLongerAndOfTheSamePitch) {
+    World world = bouncing();
+    SoundTrack track(world, settings_for(world), 0.25);
+    world.step(1); // it strikes the wall at 0.75 s
+    track.record(world);
+    const test::Stereo heard = test::split<std::int16_t>(track.samples(), 32767);
+    EXPECT_EQ(heard.left.size(), 4 * 48000);
+    const std::span<const double> left(heard.left);
+    EXPECT_LT(test::largest(left.first(3 * 48000)), 0.001);
+    EXPECT_NEAR(test::main_pitch(left.subspan(3 * 48000, 14400), 400, 2000) / 880, 1, 0.01);
+    EXPECT_THROW(SoundTrack(world, {}, 0), Error);
+}
+
 TEST(SoundTrack, WritesItsFileWithAnEndThatFades) {
     const scene::TemporaryFolder folder;
     World world = bouncing();
@@ -108,8 +121,8 @@ TEST(Settings, SuitTheScene) {
     world.add({.position = {19, 0, 0}, .mass = 100, .radius = 1});
     world.add({.position = {0, 0, 5}, .mass = infinite_mass, .radius = 1});
     const SoundSettings settings = settings_for(world);
-    EXPECT_NEAR(settings.reference_mass, 10, 1e-12);       // the geometric mean of those that move
-    EXPECT_NEAR(settings.reference_distance, 20, 1e-12);   // half the extent
+    EXPECT_NEAR(settings.reference_mass, 10, 1e-12);        // the geometric mean of those that move
+    EXPECT_NEAR(settings.reference_distance, 20, 1e-12);    // half the extent
     EXPECT_NEAR(settings.reference_impulse, 10 * 20, 1e-9); // at the speed of a fall through half of it
     const Listener listener = overview(world);
     EXPECT_NEAR(listener.position.x, 0, 1e-12);
@@ -134,7 +147,7 @@ TEST(Strikes, AreOneForEachBodyThatMoves) {
     const BodyId one = world.add({.position = {0, 0, 0}, .velocity = {1, 0, 0}, .mass = 2, .restitution = 0.5});
     world.add({.position = {2, 0, 0}, .mass = 3, .restitution = 0.25}); // meets the first at 1 s
     world.add({.position = {0, 5, 0}, .velocity = {0, -3, 0}, .mass = 5});
-    world.add({.position = {0, 2, 0}, .mass = infinite_mass}); // meets the third at 2/3 s
+    world.add({.position = {0, 2, 0}, .mass = infinite_mass});            // meets the third at 2/3 s
     world.add({.position = {5, 0, 9}, .velocity = {0, 0, 1}, .mass = 7}); // meets the wall at 1/2 s
     world.step(1.25);
     const std::vector<Strike> strikes = strikes_of(world);

@@ -1,4 +1,4 @@
-#include "checks.hpp"
+#include "viewer/sound/checks.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// Input at the door of the sound.
 #pragma once
 
-#include "sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "clusters.hpp"
+#include "viewer/sound/clusters.hpp"
 
 #include "collision/portable_math.hpp"
 

@@ -1,5 +1,5 @@
-#include "openal.hpp"
-#include "sound_stage.hpp"
+#include "viewer/sound/openal.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <array>
 #include <cstddef>

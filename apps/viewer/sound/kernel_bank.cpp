@@ -1,8 +1,8 @@
-#include "kernel_bank.hpp"
+#include "viewer/sound/kernel_bank.hpp"
 
 #include "collision/portable_math.hpp"
-#include "modes.hpp"
-#include "sound_stage.hpp"
+#include "viewer/sound/modes.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <cmath>
 #include <new>

@@ -2,7 +2,7 @@
 /// Rings by pitch and damping, as OpenAL's buffers.
 #pragma once
 
-#include "openal.hpp"
+#include "viewer/sound/openal.hpp"
 
 #include <map>
 

@@ -1,5 +1,5 @@
-#include "checks.hpp"
-#include "sound_stage.hpp"
+#include "viewer/sound/checks.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "modes.hpp"
+#include "viewer/sound/modes.hpp"
 
 #include "collision/portable_math.hpp"
 
@@ -11,10 +11,10 @@ namespace carom::sound {
 
 namespace {
 
-constexpr double longest_ring = 0.25;  ///< s, see ring_time
-constexpr double end_level = 1e-4;     ///< -80 dB
-constexpr double end_fade = 0.005;     ///< s
-constexpr double highest_pitch = 0.4;  ///< in units of the rate
+constexpr double longest_ring = 0.25; ///< s, see ring_time
+constexpr double end_level = 1e-4;    ///< -80 dB
+constexpr double end_fade = 0.005;    ///< s
+constexpr double highest_pitch = 0.4; ///< in units of the rate
 
 /// Adds amplitude * exp(-t / time) * sin(2 pi frequency t).
 void add_mode(std::vector<double>& samples, double amplitude, double frequency, double time, double rate) {

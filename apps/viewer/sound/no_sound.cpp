@@ -1,5 +1,5 @@
 // What stands in for OpenAL in a build without it.
-#include "checks.hpp"
+#include "viewer/sound/checks.hpp"
 
 #include <string>
 

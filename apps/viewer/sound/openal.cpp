@@ -1,4 +1,4 @@
-#include "openal.hpp"
+#include "viewer/sound/openal.hpp"
 
 #include <carom/base.hpp>
 
@@ -19,8 +19,7 @@ Function extension(const char* name) {
 
 } // namespace
 
-Current::Current(const Context& context)
-    : before_(extension<PFNALCGETTHREADCONTEXTPROC>("alcGetThreadContext")()) {
+Current::Current(const Context& context) : before_(extension<PFNALCGETTHREADCONTEXTPROC>("alcGetThreadContext")()) {
     extension<PFNALCSETTHREADCONTEXTPROC>("alcSetThreadContext")(context.get());
 }
 
@@ -29,12 +28,18 @@ Current::~Current() { extension<PFNALCSETTHREADCONTEXTPROC>("alcSetThreadContext
 Loopback::Loopback(int rate, int sources)
     : device_(extension<LPALCLOOPBACKOPENDEVICESOFT>("alcLoopbackOpenDeviceSOFT")(nullptr)),
       render_(extension<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT")) {
-    const std::array<ALCint, 13> attributes{ALC_FREQUENCY,           rate,
-                                            ALC_FORMAT_CHANNELS_SOFT, ALC_STEREO_SOFT,
-                                            ALC_FORMAT_TYPE_SOFT,     ALC_FLOAT_SOFT,
-                                            ALC_MONO_SOURCES,         sources,
-                                            ALC_HRTF_SOFT,            ALC_FALSE,
-                                            ALC_OUTPUT_LIMITER_SOFT,  ALC_TRUE,
+    const std::array<ALCint, 13> attributes{ALC_FREQUENCY,
+                                            rate,
+                                            ALC_FORMAT_CHANNELS_SOFT,
+                                            ALC_STEREO_SOFT,
+                                            ALC_FORMAT_TYPE_SOFT,
+                                            ALC_FLOAT_SOFT,
+                                            ALC_MONO_SOURCES,
+                                            sources,
+                                            ALC_HRTF_SOFT,
+                                            ALC_FALSE,
+                                            ALC_OUTPUT_LIMITER_SOFT,
+                                            ALC_TRUE,
                                             0};
     if (device_) context_.reset(alcCreateContext(device_.get(), attributes.data()));
     if (!context_) throw Error(ErrorCode::not_available, "sound", "OpenAL cannot render to memory");

@@ -1,5 +1,6 @@
 /// \file
-/// OpenAL's devices and contexts as objects. A context belongs to one thread at a time: who calls OpenAL holds a Current.
+/// OpenAL's devices and contexts as objects. A context belongs to one thread at a time: who calls OpenAL holds a
+/// Current.
 #pragma once
 
 #include <AL/al.h>

@@ -1,11 +1,11 @@
-#include "sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
-#include "checks.hpp"
-#include "clusters.hpp"
 #include "collision/portable_math.hpp"
-#include "kernel_bank.hpp"
-#include "openal.hpp"
-#include "voice.hpp"
+#include "viewer/sound/checks.hpp"
+#include "viewer/sound/clusters.hpp"
+#include "viewer/sound/kernel_bank.hpp"
+#include "viewer/sound/openal.hpp"
+#include "viewer/sound/voice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,8 @@ Vec3 between(const Vec3& a, const Vec3& b, double part) { return a + part * (b -
 
 Vec3 unit(const Vec3& v) { return v / length(v); }
 
-/// With directions of length 1, so that two of them can be mixed, at right angles: OpenAL takes them for axes as they are.
+/// With directions of length 1, so that two of them can be mixed, at right angles: OpenAL takes them for axes as they
+/// are.
 Listener normalised(Listener listener) {
     listener.forward = unit(listener.forward);
     listener.up = unit(cross(cross(listener.forward, unit(listener.up)), listener.forward));
@@ -190,7 +191,8 @@ std::vector<Sound> SoundStage::Impl::assign_voices(std::int64_t end) {
     const auto replaced = [&ringing](std::size_t fresh) {
         return ringing.size() + fresh > most_lasting ? ringing.size() + fresh - most_lasting : 0;
     };
-    for (std::size_t i = 1; i < bars.size(); ++i) bars[i] = replaced(i + 1) > 0 ? ringing[replaced(i + 1) - 1].first : 0;
+    for (std::size_t i = 1; i < bars.size(); ++i)
+        bars[i] = replaced(i + 1) > 0 ? ringing[replaced(i + 1) - 1].first : 0;
 
     // First as many as there may be, which then measure themselves against what rings, as loud as they have become.
     const std::vector<double> no_bars(bars.size());

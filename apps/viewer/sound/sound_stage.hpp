@@ -49,10 +49,10 @@ struct SoundSettings {
 
 /// Where one listens from. Positions are those of the world.
 struct Listener {
-    Vec3 position{};        ///< m
-    Vec3 forward{0, 1, 0};  ///< any length but zero
-    Vec3 up{0, 0, 1};       ///< not along `forward`
-    Vec3 velocity{};        ///< m/s
+    Vec3 position{};       ///< m
+    Vec3 forward{0, 1, 0}; ///< any length but zero
+    Vec3 up{0, 0, 1};      ///< not along `forward`
+    Vec3 velocity{};       ///< m/s
 };
 
 /// Settings that suit the bodies of a world as it stands: the mean of their masses' logarithms at the reference pitch,
@@ -62,8 +62,8 @@ SoundSettings settings_for(const World& world);
 /// Sees all bodies of the world as it stands: on its side -y, a little above, looking at the middle.
 Listener overview(const World& world);
 
-/// What the last step's impacts sound like: a strike for each body that moves, delayed by the impact's time in the step.
-/// Velocities and masses are those at the end of the step. The world must record impacts.
+/// What the last step's impacts sound like: a strike for each body that moves, delayed by the impact's time in the
+/// step. Velocities and masses are those at the end of the step. The world must record impacts.
 std::vector<Strike> strikes_of(const World& world);
 
 /// Renders the sound of strikes to samples. The same calls give the same samples on one machine. Functions throw Error
@@ -78,8 +78,8 @@ public:
 
     /// Moves the listener; what sounds already follows in 10 ms, so that a cut between cameras does not click.
     void listen(const Listener& listener);
-    /// Lets strikes be heard, their delays counted from the next sample that is rendered. Any number: those that the ear
-    /// does not tell apart, or that find no voice, join the nearest louder one with their energy.
+    /// Lets strikes be heard, their delays counted from the next sample that is rendered. Any number: those that the
+    /// ear does not tell apart, or that find no voice, join the nearest louder one with their energy.
     void play(std::span<const Strike> strikes);
     /// The next samples, left and right in turn, in [-1, 1]. The loudest are limited, which delays all by 1 ms.
     void render(std::span<float> samples);
@@ -113,8 +113,8 @@ using OpenSpeaker = std::function<std::unique_ptr<Speaker>(int rate)>;
 /// The machine's default device, through OpenAL Soft.
 std::unique_ptr<Speaker> open_default_speaker(int rate);
 
-/// Plays the sound of strikes as they come, from a thread of its own: a window that is slow for a moment does not make it
-/// stutter. Without a device, or once it has vanished, it is silent and everything else goes on.
+/// Plays the sound of strikes as they come, from a thread of its own: a window that is slow for a moment does not make
+/// it stutter. Without a device, or once it has vanished, it is silent and everything else goes on.
 class LiveSound {
 public:
     /// Throws Error{not_finite|out_of_range} naming the setting.
@@ -124,8 +124,8 @@ public:
     LiveSound& operator=(const LiveSound&) = delete;
 
     void listen(const Listener& listener);
-    /// Plays the strikes of a frame that lasts `duration` (s, > 0). Frames follow on each other without a gap and with a
-    /// constant latency, as long as they come in time; one that comes late begins at once.
+    /// Plays the strikes of a frame that lasts `duration` (s, > 0). Frames follow on each other without a gap and with
+    /// a constant latency, as long as they come in time; one that comes late begins at once.
     void play(std::span<const Strike> strikes, double duration);
     /// True while there is a device.
     [[nodiscard]] bool audible() const;

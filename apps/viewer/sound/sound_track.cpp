@@ -1,4 +1,4 @@
-#include "sound_track.hpp"
+#include "viewer/sound/sound_track.hpp"
 
 #include "scene/atomic_file.hpp"
 
@@ -23,7 +23,8 @@ public:
         for (const char letter : letters) bytes_.push_back(static_cast<std::byte>(letter));
     }
     void number(std::uint32_t value, int bytes) {
-        for (int i = 0; i < bytes; ++i) bytes_.push_back(static_cast<std::byte>(value >> (8U * static_cast<unsigned>(i))));
+        for (int i = 0; i < bytes; ++i)
+            bytes_.push_back(static_cast<std::byte>(value >> (8U * static_cast<unsigned>(i))));
     }
     std::vector<std::byte> take() { return std::move(bytes_); }
 
@@ -33,16 +34,18 @@ private:
 
 } // namespace
 
-SoundTrack::SoundTrack(const World& world, const SoundSettings& settings)
-    : rate_(settings.rate), stage_(settings), begin_(world.time()), now_(world.time()) {}
+SoundTrack::SoundTrack(const World& world, const SoundSettings& settings, double pace)
+    : rate_(settings.rate), pace_(pace), stage_(settings), begin_(world.time()), now_(world.time()) {
+    if (!(pace > 0 && std::isfinite(pace))) throw Error(ErrorCode::out_of_range, "pace", "must be finite and > 0");
+}
 
 void SoundTrack::record(const World& world) {
     const double rendered = static_cast<double>(samples_.size() / 2) / rate_;
     std::vector<Strike> strikes = strikes_of(world);
-    for (Strike& strike : strikes) strike.delay = std::max(0.0, now_ - begin_ + strike.delay - rendered);
+    for (Strike& strike : strikes) strike.delay = std::max(0.0, heard_at(now_ + strike.delay) - rendered);
     stage_.play(strikes);
     now_ = world.time();
-    const auto end = static_cast<std::size_t>(std::llround((now_ - begin_) * rate_));
+    const auto end = static_cast<std::size_t>(std::llround(heard_at(now_) * rate_));
     block_.resize(2 * end - samples_.size());
     stage_.render(block_);
     std::transform(block_.begin(), block_.end(), std::back_inserter(samples_), to_16_bits);

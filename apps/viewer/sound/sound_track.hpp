@@ -2,7 +2,7 @@
 /// The sound of a whole run, for films and as a file.
 #pragma once
 
-#include "sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace carom::sound {
 
-/// Records what a world sounds like, step by step: a second of the world is a second of sound.
+/// Records what a world sounds like, step by step.
 class SoundTrack {
 public:
-    /// Begins at the world's time. Throws what SoundStage throws.
-    SoundTrack(const World& world, const SoundSettings& settings);
+    /// Begins at the world's time. `pace` seconds of the world (> 0) are a second of sound; pitches are the same for
+    /// any. Throws what SoundStage throws.
+    SoundTrack(const World& world, const SoundSettings& settings, double pace = 1);
 
     /// From where the next steps are heard.
     void listen(const Listener& listener) { stage_.listen(listener); }
@@ -29,7 +30,11 @@ public:
     void write_wav(const std::filesystem::path& file) const;
 
 private:
+    /// s of sound from the beginning to a time of the world.
+    [[nodiscard]] double heard_at(double time) const { return (time - begin_) / pace_; }
+
     int rate_;
+    double pace_;
     SoundStage stage_;
     double begin_; ///< s of the world
     double now_;   ///< s of the world: the end of the last step recorded
@@ -37,8 +42,8 @@ private:
     std::vector<std::int16_t> samples_;
 };
 
-/// A WAV file (RIFF, PCM, 16 bits, stereo) of samples that stand left and right in turn. Throws Error{out_of_range} above
-/// 4 GiB.
+/// A WAV file (RIFF, PCM, 16 bits, stereo) of samples that stand left and right in turn. Throws Error{out_of_range}
+/// above 4 GiB.
 std::vector<std::byte> wav_file(std::span<const std::int16_t> samples, int rate);
 
 } // namespace carom::sound

@@ -1,5 +1,5 @@
 #include "collision/portable_math.hpp"
-#include "sound_stage.hpp"
+#include "viewer/sound/sound_stage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +36,7 @@ struct Extent {
     Vec3 min{};
     Vec3 max{};
 
-    [[nodiscard]] double size() const {
-        return std::max({max.x - min.x, max.y - min.y, max.z - min.z});
-    }
+    [[nodiscard]] double size() const { return std::max({max.x - min.x, max.y - min.y, max.z - min.z}); }
 };
 
 Extent extent_of(const Bodies& bodies) {

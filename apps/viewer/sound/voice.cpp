@@ -1,4 +1,4 @@
-#include "voice.hpp"
+#include "viewer/sound/voice.hpp"
 
 #include "collision/portable_math.hpp"
 

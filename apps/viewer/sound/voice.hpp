@@ -2,9 +2,9 @@
 /// A voice: one source of OpenAL and what it plays.
 #pragma once
 
-#include "clusters.hpp"
-#include "kernel_bank.hpp"
-#include "openal.hpp"
+#include "viewer/sound/clusters.hpp"
+#include "viewer/sound/kernel_bank.hpp"
+#include "viewer/sound/openal.hpp"
 
 #include <cstdint>
 
