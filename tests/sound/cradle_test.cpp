@@ -94,7 +94,7 @@ std::pair<double, double> gains(const Vec3& place, double reference_distance) {
     alSource3f(source, AL_POSITION, static_cast<float>(place.x), static_cast<float>(place.y),
                static_cast<float>(place.z));
     alSourcePlay(source);
-    std::vector<float> samples(2 * 480);
+    std::vector<float> samples(960);
     device.render(samples);
     alDeleteSources(1, &source);
     alDeleteBuffers(1, &buffer);

@@ -100,7 +100,9 @@ inline double main_pitch(std::span<const double> samples, double low, double hig
     const std::vector<double> window = windowed(samples);
     double best = low;
     double most = 0;
-    for (double frequency = low; frequency < high; frequency *= 1.001) {
+    const auto steps = static_cast<int>(std::log(high / low) / std::log(1.001));
+    for (int i = 0; i <= steps; ++i) {
+        const double frequency = low * std::pow(1.001, i);
         const double amplitude = line_at(window, frequency, rate);
         if (amplitude <= most) continue;
         most = amplitude;

@@ -29,15 +29,15 @@ class FakeSpeaker : public Speaker {
 public:
     explicit FakeSpeaker(Room& room) : room_(room) {}
     bool has_room() override {
-        const std::lock_guard lock(room_.mutex);
+        const std::scoped_lock lock(room_.mutex);
         return room_.heard.size() < room_.wanted;
     }
     void take(std::span<const float> samples) override {
-        const std::lock_guard lock(room_.mutex);
+        const std::scoped_lock lock(room_.mutex);
         room_.heard.insert(room_.heard.end(), samples.begin(), samples.end());
     }
     bool connected() override {
-        const std::lock_guard lock(room_.mutex);
+        const std::scoped_lock lock(room_.mutex);
         return room_.plugged;
     }
 
@@ -47,7 +47,7 @@ private:
 
 OpenSpeaker speaker_in(Room& room) {
     return [&room](int) -> std::unique_ptr<Speaker> {
-        const std::lock_guard lock(room.mutex);
+        const std::scoped_lock lock(room.mutex);
         if (!room.plugged) throw Error(ErrorCode::not_available, "sound", "there is no sound device");
         ++room.opened;
         return std::make_unique<FakeSpeaker>(room);
@@ -68,18 +68,18 @@ bool eventually(const Condition& condition) {
 void pass(Room& room, double seconds) {
     std::size_t wanted = 0;
     {
-        const std::lock_guard lock(room.mutex);
+        const std::scoped_lock lock(room.mutex);
         room.wanted += 2 * static_cast<std::size_t>(std::lround(seconds * 48000));
         wanted = room.wanted;
     }
     ASSERT_TRUE(eventually([&] {
-        const std::lock_guard lock(room.mutex);
+        const std::scoped_lock lock(room.mutex);
         return room.heard.size() >= wanted;
     }));
 }
 
 void plug(Room& room, bool plugged) {
-    const std::lock_guard lock(room.mutex);
+    const std::scoped_lock lock(room.mutex);
     room.plugged = plugged;
 }
 

@@ -92,10 +92,11 @@ TEST(SoundTrack, InSlowMotionIsLongerAndOfTheSamePitch) {
     world.step(1); // it strikes the wall at 0.75 s
     track.record(world);
     const test::Stereo heard = test::split<std::int16_t>(track.samples(), 32767);
-    EXPECT_EQ(heard.left.size(), 4 * 48000);
+    constexpr std::size_t second = 48000;
+    EXPECT_EQ(heard.left.size(), 4 * second);
     const std::span<const double> left(heard.left);
-    EXPECT_LT(test::largest(left.first(3 * 48000)), 0.001);
-    EXPECT_NEAR(test::main_pitch(left.subspan(3 * 48000, 14400), 400, 2000) / 880, 1, 0.01);
+    EXPECT_LT(test::largest(left.first(3 * second)), 0.001);
+    EXPECT_NEAR(test::main_pitch(left.subspan(3 * second, 14400), 400, 2000) / 880, 1, 0.01);
     EXPECT_THROW(SoundTrack(world, {}, 0), Error);
 }
 

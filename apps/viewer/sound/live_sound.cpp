@@ -30,7 +30,7 @@ public:
 
     ~Impl() {
         {
-            const std::lock_guard lock(mutex_);
+            const std::scoped_lock lock(mutex_);
             ends_ = true;
         }
         wake_.notify_one();
@@ -40,13 +40,13 @@ public:
     Impl& operator=(const Impl&) = delete;
 
     void listen(const Listener& listener) {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         listener_ = listener;
         if (stage_) stage_->listen(listener);
     }
 
     void play(std::span<const Strike> strikes, double duration) {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         if (!stage_) return;
         const double earliest = rendered_ + latency;
         if (next_frame_ < rendered_ || next_frame_ > earliest + most_ahead) next_frame_ = earliest;
@@ -57,18 +57,18 @@ public:
     }
 
     bool audible() const {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         return stage_.has_value();
     }
 
     std::optional<std::string> take_problem() {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         return std::exchange(problem_, std::nullopt);
     }
 
     void reopen() {
         {
-            const std::lock_guard lock(mutex_);
+            const std::scoped_lock lock(mutex_);
             wanted_ = !stage_;
         }
         wake_.notify_one();
@@ -80,7 +80,7 @@ private:
     void feed(Speaker& speaker);
     void fall_silent(const std::string& problem);
     bool ends() const {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         return ends_;
     }
 
@@ -118,7 +118,7 @@ void LiveSound::Impl::work() {
 std::unique_ptr<Speaker> LiveSound::Impl::open() {
     std::unique_ptr<Speaker> speaker = open_(settings_.rate);
     SoundStage stage(settings_);
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     stage.listen(listener_);
     stage_.emplace(std::move(stage));
     rendered_ = 0;
@@ -137,7 +137,7 @@ void LiveSound::Impl::feed(Speaker& speaker) {
             continue;
         }
         {
-            const std::lock_guard lock(mutex_);
+            const std::scoped_lock lock(mutex_);
             stage_->render(block);
             rendered_ += static_cast<double>(frames) / settings_.rate;
         }
@@ -146,7 +146,7 @@ void LiveSound::Impl::feed(Speaker& speaker) {
 }
 
 void LiveSound::Impl::fall_silent(const std::string& problem) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     stage_.reset();
     problem_ = problem;
 }

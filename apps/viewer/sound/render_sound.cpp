@@ -16,7 +16,8 @@ bool render_sound(const scene::Scene& scene, const std::filesystem::path& file,
     track.listen(overview(world));
     constexpr double rounding = 1e-9; // steps
     const double dt = scene.run.dt;
-    for (double left = scene.run.time; left > rounding * dt; left = scene.run.time - world.time()) {
+    while (world.time() < scene.run.time - rounding * dt) {
+        const double left = scene.run.time - world.time();
         world.step(left < (1 - rounding) * dt ? left : dt);
         track.record(world);
         if (!go_on(world)) return false;

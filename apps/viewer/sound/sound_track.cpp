@@ -40,13 +40,14 @@ SoundTrack::SoundTrack(const World& world, const SoundSettings& settings, double
 }
 
 void SoundTrack::record(const World& world) {
-    const double rendered = static_cast<double>(samples_.size() / 2) / rate_;
+    const std::size_t rendered = samples_.size() / 2;
+    const double seconds = static_cast<double>(rendered) / rate_;
     std::vector<Strike> strikes = strikes_of(world);
-    for (Strike& strike : strikes) strike.delay = std::max(0.0, heard_at(now_ + strike.delay) - rendered);
+    for (Strike& strike : strikes) strike.delay = std::max(0.0, heard_at(now_ + strike.delay) - seconds);
     stage_.play(strikes);
     now_ = world.time();
     const auto end = static_cast<std::size_t>(std::llround(heard_at(now_) * rate_));
-    block_.resize(2 * end - samples_.size());
+    block_.resize(2 * (end - rendered));
     stage_.render(block_);
     std::transform(block_.begin(), block_.end(), std::back_inserter(samples_), to_16_bits);
 }
