@@ -191,8 +191,9 @@ std::vector<Sound> SoundStage::Impl::assign_voices(std::int64_t end) {
     const auto replaced = [&ringing](std::size_t fresh) {
         return ringing.size() + fresh > most_lasting ? ringing.size() + fresh - most_lasting : 0;
     };
-    for (std::size_t i = 1; i < bars.size(); ++i)
-        bars[i] = replaced(i + 1) > 0 ? ringing[replaced(i + 1) - 1].first : 0;
+    for (std::size_t i = 1; i < bars.size(); ++i) {
+        if (replaced(i + 1) > 0) bars[i] = ringing[replaced(i + 1) - 1].first;
+    }
 
     // First as many as there may be, which then measure themselves against what rings, as loud as they have become.
     const std::vector<double> no_bars(bars.size());

@@ -17,11 +17,8 @@ void set(ALuint source, ALenum property, const Vec3& value) {
     alSource3f(source, property, static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z));
 }
 
-/// The best that this OpenAL has.
-ALint best_resampler() {
-    // A macro of OpenAL with the value of an int.
-    return alGetInteger(AL_NUM_RESAMPLERS_SOFT) - 1;
-}
+/// OpenAL lists them from the quickest to the best.
+ALint best_resampler() { return alGetInteger(AL_NUM_RESAMPLERS_SOFT) - 1; }
 
 } // namespace
 
