@@ -51,7 +51,7 @@ class Documentation(CliTest):
         self.assertEqual(self.json("run", "faces.toml")["contacts"], 1)
 
     def test_every_option_is_described(self):
-        for command in ("run", "bench", "validate", "info", "diff"):
+        for command in ("run", "bench", "validate", "render", "info", "diff"):
             for option in set(re.findall(r"--[a-z-]+", self.carom(command, "--help")[0])) - {"--help"}:
                 self.assertTrue(f"`{option}" in PAGE, f"{command} {option}")
 
