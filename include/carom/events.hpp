@@ -33,6 +33,16 @@ struct Contact {
     Vec3 friction{};        ///< N across the normal on b, or on the face; a gets the opposite
 };
 
+/// A Contact began in the last step, or ended. One that began and ended in it is told of by neither.
+struct ContactChange {
+    BodyId a{};             ///< as in Contact
+    BodyId b{};             ///< not set where it is a face
+    std::int32_t face = -1; ///< index of the face, -1 between bodies
+    bool has_begun = false; ///< else it has ended
+
+    friend bool operator==(const ContactChange&, const ContactChange&) = default;
+};
+
 /// Wall-clock seconds that the phases of a step took.
 struct PhaseTimes {
     double forces = 0;   ///< kicks of drag and attractors, contacts of held bodies

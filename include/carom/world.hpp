@@ -64,6 +64,7 @@ struct WorldOptions {
     /// Threads that a step may use; 0: one for each core. No result depends on it.
     unsigned threads = 0;
     bool record_impacts = true;
+    bool record_contacts = false;      ///< keep what World::contact_changes() tells
     double least_recorded_impulse = 0; ///< N s, >= 0: weaker impacts happen but are not recorded
     /// Keep each body's position at the start of the last step, for positions_at. Costs 24 bytes a body.
     bool interpolation = false;
@@ -137,6 +138,9 @@ public:
     /// face or a static body is the sum of `force * normal + friction` over its contacts. Takes O(contacts log
     /// contacts).
     [[nodiscard]] std::vector<Contact> contacts() const;
+    /// Contacts that began or ended in the last step, in the order of (a, then b, then faces); valid until the next
+    /// step. What the caller has changed or removed before it ends without a word. Needs WorldOptions::record_contacts.
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept;
     /// Positions (m) at `time` inside the last step, on the straight line between its two ends (across a periodic
     /// face the short way): for drawing between steps. Needs WorldOptions::interpolation.
     void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;

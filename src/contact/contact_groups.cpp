@@ -85,7 +85,8 @@ HWY_INLINE HWY_ATTR auto offsets(D /*lanes*/, const std::array<std::uint32_t, gr
 
 template <class D, class I>
 HWY_INLINE HWY_ATTR Vectors<D> gather(D lanes, const Number<D>* from, I at) {
-    return {hn::GatherIndex(lanes, from, at), hn::GatherIndex(lanes, from + 1, at), hn::GatherIndex(lanes, from + 2, at)};
+    return {hn::GatherIndex(lanes, from, at), hn::GatherIndex(lanes, from + 1, at),
+            hn::GatherIndex(lanes, from + 2, at)};
 }
 
 /// The movers of one side of some contacts.
@@ -279,8 +280,7 @@ HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces
         const auto before = load(lanes, group.impulse, lane);
         const auto slip = b.v - a.v;
         const auto parting = dot(slip, sight.normal);
-        const auto wanted =
-            hn::Mul(mass, hn::Add(parting, hn::Mul(not_negative(lanes, sight.gap), frequency)));
+        const auto wanted = hn::Mul(mass, hn::Add(parting, hn::Mul(not_negative(lanes, sight.gap), frequency)));
         const auto after = not_negative(lanes, hn::Sub(before, wanted));
         auto impulse = scaled(sight.normal, after) - scaled(load(lanes, group.normal, lane), before);
         if (run.rubs) {
@@ -352,9 +352,8 @@ constexpr auto targets = std::to_array<Target<Real>>({
 
 template <class Real>
 const GroupSolver<Real>& group_solver() {
-    const auto* const target =
-        std::find_if(targets<Real>.begin(), targets<Real>.end(),
-                     [name = simd_target()](const Target<Real>& t) { return t.name == name; });
+    const auto* const target = std::find_if(targets<Real>.begin(), targets<Real>.end(),
+                                            [name = simd_target()](const Target<Real>& t) { return t.name == name; });
     return target == targets<Real>.end() ? targets<Real>.back().solver : target->solver;
 }
 

@@ -50,9 +50,9 @@ struct alignas(64) ContactGroup {
 /// How a soft pass turns overlap and approach into impulses.
 template <class Real>
 struct Softness {
-    Real rate = 0;     ///< 1/s, at which overlap is undone
-    Real mass = 0;     ///< part of the effective mass
-    Real impulse = 0;  ///< part of the impulse so far that is taken back
+    Real rate = 0;      ///< 1/s, at which overlap is undone
+    Real mass = 0;      ///< part of the effective mass
+    Real impulse = 0;   ///< part of the impulse so far that is taken back
     Real frequency = 0; ///< 1/s, pieces: gaps may be closed within one
 };
 
@@ -61,10 +61,10 @@ template <class Real>
 struct ContactRun {
     std::span<ContactGroup<Real>> groups;
     Mover<Real>* movers = nullptr;
-    const Place<Real>* places = nullptr;    ///< per mover, how far it has come since it was listed
-    std::uint8_t* carried = nullptr;        ///< per mover, set to 1 where a contact between two bodies carried it
-    Real* pressings = nullptr;              ///< per mover, m/s^2: what its strongest contact does to it, at least
-    bool rubs = false;                      ///< whether any contact has friction
+    const Place<Real>* places = nullptr; ///< per mover, how far it has come since it was listed
+    std::uint8_t* carried = nullptr;     ///< per mover, set to 1 where a contact between two bodies carried it
+    Real* pressings = nullptr;           ///< per mover, m/s^2: what its strongest contact does to it, at least
+    bool rubs = false;                   ///< whether any contact has friction
 };
 
 /// All of them take the groups in their order. Those that return a number return the energy that friction took, J.

@@ -81,9 +81,8 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
         [leaning](Index k) { return k < leaning; });
     for_each_in_parts(executor, bodies.listed.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         const auto place = static_cast<Index>(k);
-        neighbours_.for_each(place, [&](Index other) {
-            add_pair(found_in_part_[part], body_at(place), body_at(other), margin);
-        });
+        neighbours_.for_each(
+            place, [&](Index other) { add_pair(found_in_part_[part], body_at(place), body_at(other), margin); });
         add_walls(found_in_part_[part], place, margin);
     });
     clear_for_reuse(found_);

@@ -145,7 +145,7 @@ private:
 
     // Room to make the list in.
     std::vector<std::uint32_t> places_; ///< per body: in Bodies::listed, or nobody
-    std::vector<Index> statics_; ///< and bodies that are asleep
+    std::vector<Index> statics_;        ///< and bodies that are asleep
     Ticks ticks_;
     Neighbours neighbours_;
     std::array<std::vector<Found>, most_parts> found_in_part_;
@@ -153,9 +153,10 @@ private:
     std::vector<Cell> cells_; ///< per leaner
     std::array<std::uint32_t, 2> turns_{};
     std::vector<Order> orders_;
-    std::vector<std::uint32_t> next_group_; ///< per leaner, the first group of the bundle that its next contact may join
-    std::vector<std::uint32_t> fillings_;   ///< per group of the bundle, its contacts
-    std::vector<std::uint32_t> open_from_;  ///< per group of the bundle: it is full up to this one, or further
+    std::vector<std::uint32_t>
+        next_group_;                       ///< per leaner, the first group of the bundle that its next contact may join
+    std::vector<std::uint32_t> fillings_;  ///< per group of the bundle, its contacts
+    std::vector<std::uint32_t> open_from_; ///< per group of the bundle: it is full up to this one, or further
 };
 
 } // namespace carom::core

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <numbers>
+#include <utility>
 
 namespace carom::core {
 
@@ -200,7 +200,8 @@ double Pile<Real>::wanted_margin() const {
     ExactSum radii; // the same in any order
     for (const Index body : bodies_) radii.add(static_cast<double>(state_.bodies.motion[body].radius));
     const double mean_radius = radii.value() / static_cast<double>(bodies_.size());
-    return std::min(lives * list_life * unlisted_approach(), part_of_radius * mean_radius) + 4 * state_.resolution.metres;
+    return std::min(lives * list_life * unlisted_approach(), part_of_radius * mean_radius) +
+           4 * state_.resolution.metres;
 }
 
 /// m/s, the fastest approach of bodies that is no impact.
@@ -529,7 +530,8 @@ void Pile<Real>::settle_accounts() {
         ExactSum held_mass_time;
     };
     if (accounts_.empty()) return;
-    if (has_values_) for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
+    if (has_values_)
+        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
     std::array<Sums, most_parts> sums{};
     for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         sums[part].momentum.add(accounts_[k].momentum);
@@ -579,8 +581,8 @@ void Pile<Real>::measure_walls() {
         const Motion<Real>& m = state_.bodies.motion[bodies_[group.a[lane]]];
         const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
         const Vec3 normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        group.gap[lane] = static_cast<Real>(
-            state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), state_.resolution));
+        group.gap[lane] =
+            static_cast<Real>(state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), state_.resolution));
         for (int axis = 0; axis < 3; ++axis) {
             group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(normal, axis));
         }
@@ -732,9 +734,8 @@ bool Pile<Real>::mark(std::size_t leaner) {
 template <class Real>
 void Pile<Real>::set_out() {
     fall_ = to_real<Real>(state_.laws.gravity * piece_);
-    for_each_leaner([this](Findings&, std::size_t k) {
-        movers_[k].v = state_.bodies.motion[bodies_[k]].v + fall_ + shares_[k];
-    });
+    for_each_leaner(
+        [this](Findings&, std::size_t k) { movers_[k].v = state_.bodies.motion[bodies_[k]].v + fall_ + shares_[k]; });
 }
 
 /// The bodies go as the contacts let them.

@@ -167,9 +167,9 @@ private:
     const GroupSolver<Real>* solver_ = nullptr;
 
     ContactList<Real> list_;
-    bool is_listed_ = false;   ///< list_ is the one that the state tells of
-    bool has_values_ = false;  ///< impulses and the like are those of the step
-    bool has_far_ = false;     ///< someone has moved too far for the list
+    bool is_listed_ = false;  ///< list_ is the one that the state tells of
+    bool has_values_ = false; ///< impulses and the like are those of the step
+    bool has_far_ = false;    ///< someone has moved too far for the list
     std::size_t bearing_ = 0;
     std::optional<double> asleep_mass_; ///< kg
     std::size_t asleep_ = 0;            ///< bodies that make it up
@@ -207,7 +207,7 @@ private:
     std::vector<std::uint32_t> returned_;
     std::vector<double> still_; ///< s, per slot
     DisjointSets islands_;
-    std::vector<bool> wakeful_; ///< per root of an island
+    std::vector<bool> wakeful_;  ///< per root of an island
     std::vector<double> losses_; ///< J, per bundle
     std::vector<std::uint32_t> first_forces_;
     std::vector<std::uint32_t> force_order_;

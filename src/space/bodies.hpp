@@ -23,10 +23,10 @@ inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 /// What moves a body between impacts.
 enum class Kind : std::uint8_t {
-    free,  ///< uniform gravity
-    fixed, ///< nothing: a static body
-    held,  ///< its Hold: it rests against faces or static bodies
-    piled, ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
+    free,   ///< uniform gravity
+    fixed,  ///< nothing: a static body
+    held,   ///< its Hold: it rests against faces or static bodies
+    piled,  ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
     asleep, ///< nothing: it is piled, but its whole island has lain still until something arrives
 };
 
@@ -252,8 +252,8 @@ void drop_stale_contacts(Bodies<Real>& bodies) {
     const std::size_t stale = std::erase_if(bodies.contacts, [&](const ContactForce& c) {
         return is_gone(c.a) || ((c.code & Support::wall_bit) == 0 && is_gone(c.code));
     });
-    const bool is_stale = std::any_of(bodies.listed.begin(), bodies.listed.end(),
-                                      [&](const ListedBody& l) { return is_gone(l.slot); });
+    const bool is_stale =
+        std::any_of(bodies.listed.begin(), bodies.listed.end(), [&](const ListedBody& l) { return is_gone(l.slot); });
     if (stale != 0 || is_stale) drop_contact_list(bodies);
 }
 

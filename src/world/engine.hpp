@@ -57,6 +57,7 @@ public:
     [[nodiscard]] const Clock& clock() const noexcept { return clock_; }
     [[nodiscard]] const StepReport& report() const noexcept { return report_; }
     [[nodiscard]] std::span<const Impact> impacts() const noexcept { return impacts_; }
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept { return contact_changes_; }
 
     // engine.cpp
     [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
@@ -117,6 +118,8 @@ private:
 
     // engine_contacts.cpp
     [[nodiscard]] Contact contact_of(Index body, std::uint32_t code) const;
+    void find_touching(std::vector<ContactChange>& touching) const;
+    void note_contact_changes();
     void add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const;
 
     // engine_step.cpp
@@ -176,6 +179,9 @@ private:
     Ledger ledger_;
     StepReport report_;
     Outcome outcome_;
+    std::vector<ContactChange> contact_changes_;
+    std::vector<ContactChange> touched_;  ///< when the step began
+    std::vector<ContactChange> touching_; ///< when it ended
     std::vector<Impact> impacts_;
     std::shared_ptr<Executor> executor_;
     Pile<Real> pile_;

@@ -250,7 +250,8 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         throw;
     }
     for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
-    const bool has_static = std::any_of(columns.mass.begin(), columns.mass.end(), [](double m) { return std::isinf(m); });
+    const bool has_static =
+        std::any_of(columns.mass.begin(), columns.mass.end(), [](double m) { return std::isinf(m); });
     if (has_static) {
         wake_all(state_.bodies);
         drop_contact_list(state_.bodies);
@@ -365,8 +366,7 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     write_columns(columns, indices);
     wake_all_for(former_kinds);
     const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
-    const bool meets_otherwise =
-        !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
+    const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
     if (moved || meets_otherwise) drop_contact_list(state_.bodies);
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {

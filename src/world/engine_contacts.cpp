@@ -26,6 +26,11 @@ std::array<double, 3> share_out(const Vec3& push, const std::vector<Support>& su
     return shares;
 }
 
+/// The order of contacts. A face's id is not set, which is the last of all.
+constexpr auto comes_before = [](const auto& x, const auto& y) {
+    return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
+};
+
 } // namespace
 
 /// Where and against what a body touches, without the force.
@@ -80,11 +85,37 @@ std::vector<Contact> Engine<Real>::contacts() const {
         }
     }
     for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
-    // A face's id is not set, which is the last of all.
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
-        return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
-    });
+    std::sort(contacts.begin(), contacts.end(), comes_before);
     return contacts;
+}
+
+/// Whom a step finds in contact, in the order of contacts().
+template <class Real>
+void Engine<Real>::find_touching(std::vector<ContactChange>& touching) const {
+    touching.clear();
+    for (const Contact& contact : contacts()) touching.push_back({contact.a, contact.b, contact.face});
+}
+
+/// What has changed since the step began.
+template <class Real>
+void Engine<Real>::note_contact_changes() {
+    find_touching(touching_);
+    const auto take = [this](ContactChange change, bool has_begun) {
+        change.has_begun = has_begun;
+        contact_changes_.push_back(change);
+    };
+    auto before = touched_.begin();
+    auto now = touching_.begin();
+    while (before != touched_.end() || now != touching_.end()) {
+        if (now == touching_.end() || (before != touched_.end() && comes_before(*before, *now))) {
+            take(*before++, false);
+        } else if (before == touched_.end() || comes_before(*now, *before)) {
+            take(*now++, true);
+        } else {
+            ++before;
+            ++now;
+        }
+    }
 }
 
 template Contact Engine<float>::contact_of(Index, std::uint32_t) const;
@@ -93,5 +124,9 @@ template void Engine<float>::add_held(std::uint32_t, const Hold&, std::vector<Co
 template void Engine<double>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
 template std::vector<Contact> Engine<float>::contacts() const;
 template std::vector<Contact> Engine<double>::contacts() const;
+template void Engine<float>::find_touching(std::vector<ContactChange>&) const;
+template void Engine<double>::find_touching(std::vector<ContactChange>&) const;
+template void Engine<float>::note_contact_changes();
+template void Engine<double>::note_contact_changes();
 
 } // namespace carom::core

@@ -158,6 +158,8 @@ template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
+    contact_changes_.clear();
+    if (setting_.options.record_contacts) find_touching(touched_);
     clear_for_reuse(impacts_);
     outcome_ = {};
     outcome_.least_impulse = setting_.options.least_recorded_impulse;
@@ -355,6 +357,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     report_.tc_conversions = outcome_.tc_conversions;
     report_.held = state_.bodies.holds.size() + pile_.size();
     report_.asleep = pile_.asleep();
+    if (setting_.options.record_contacts) note_contact_changes();
     report_.contacts = pile_.contacts();
     for (const auto& [slot, hold] : state_.bodies.holds) report_.contacts += hold.supports.size();
     ledger_.impacts += outcome_.impacts;

@@ -98,7 +98,7 @@ template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
     archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
             o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference, o.record_impacts,
-            o.least_recorded_impulse, o.interpolation, o.sleeping);
+            o.least_recorded_impulse, o.interpolation, o.sleeping, o.record_contacts);
 }
 
 template <class Archive, class Real>
@@ -242,9 +242,9 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed,
-            b.contacts, b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
-            last_step_);
+    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed, b.contacts,
+            b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_,
+            attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
 }
 

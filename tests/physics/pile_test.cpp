@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -81,6 +82,38 @@ WorldOptions sleepy_world(double side) {
     WorldOptions options = box_world(side);
     options.sleeping = true;
     return options;
+}
+
+TEST(Contacts, ChangesAddUpToWhatThereIs) {
+    WorldOptions options = sleepy_world(4.4);
+    options.record_contacts = true;
+    World world = heap(4, 6, 0.5, options);
+    std::vector<carom::ContactChange> there;
+    const auto key = [](const auto& c) { return std::tuple(c.a.slot, c.b.slot, c.face); };
+    const auto in_order = [&](const auto& x, const auto& y) { return key(x) < key(y); };
+    std::size_t ended = 0;
+    for (int k = 0; k < 240; ++k) {
+        if (k == 180) world.add({.position = {2, 2, 12}, .velocity = {0, 0, -60}, .restitution = 0.3});
+        world.step(dt);
+        EXPECT_TRUE(std::is_sorted(world.contact_changes().begin(), world.contact_changes().end(), in_order));
+        for (const carom::ContactChange& change : world.contact_changes()) {
+            const auto place = std::lower_bound(there.begin(), there.end(), change, in_order);
+            const bool is_there = place != there.end() && key(*place) == key(change);
+            ASSERT_NE(is_there, change.has_begun) << k;
+            ended += change.has_begun ? 0 : 1;
+            if (change.has_begun) {
+                there.insert(place, change);
+            } else {
+                there.erase(place);
+            }
+        }
+        const std::vector<carom::Contact> contacts = world.contacts();
+        ASSERT_TRUE(std::equal(contacts.begin(), contacts.end(), there.begin(), there.end(),
+                               [&](const auto& x, const auto& y) { return key(x) == key(y); }))
+            << k;
+    }
+    EXPECT_GT(there.size(), world.size());
+    EXPECT_GT(ended, 100U);
 }
 
 TEST(Sleep, AHeapFallsAsleepWhereItLiesAndBearsItsWeight) {
