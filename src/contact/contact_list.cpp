@@ -81,9 +81,8 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
         [leaning](Index k) { return k < leaning; });
     for_each_in_parts(executor, bodies.listed.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         const auto place = static_cast<Index>(k);
-        neighbours_.for_each(place, [&](Index other) {
-            add_pair(found_in_part_[part], body_at(place), body_at(other), margin);
-        });
+        neighbours_.for_each(
+            place, [&](Index other) { add_pair(found_in_part_[part], body_at(place), body_at(other), margin); });
         add_walls(found_in_part_[part], place, margin);
     });
     clear_for_reuse(found_);
@@ -111,11 +110,16 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
     const std::uint32_t slot = state_.bodies.listed[a].slot;
     const Motion<Real>& m = state_.bodies.motion[state_.bodies.slots[slot]];
     const auto radius = static_cast<double>(m.radius);
-    if (!state_.bounds.may_touch(m.x, radius + margin, state_.resolution)) return;
-    for (std::uint32_t k = 0; k < state_.bounds.walls().size(); ++k) {
-        if (state_.bounds.gap(state_.bounds.walls()[k], m.x, {}, radius, state_.resolution) > margin) continue;
-        found.push_back({a, nobody, slot, Support::wall_bit | k});
+    const Bounds& bounds = state_.bounds;
+    const auto add = [&](std::uint32_t wall) { found.push_back({a, nobody, slot, Support::wall_bit | wall}); };
+    if (bounds.may_touch_wall(m.x, radius + margin, state_.resolution)) {
+        for (std::uint32_t k = 0; k < bounds.first_facet(); ++k) {
+            if (bounds.gap(bounds.walls()[k], m.x, {}, radius, state_.resolution) <= margin) add(k);
+        }
     }
+    if (bounds.obstacles() == nullptr) return;
+    bounds.obstacles()->for_each_contact(m.x, radius + margin,
+                                         [&](std::uint32_t facet) { add(bounds.first_facet() + facet); });
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -274,7 +278,7 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
     Encounter encounter;
     double inverse = 1 / static_cast<double>(bodies.mass[body]);
     if (name.is_wall()) {
-        encounter = encounter_of(state_, body, state_.bounds.walls()[name.wall()]);
+        encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()));
         at_walls_.push_back(number);
     } else {
         const Index other = bodies.slots[found.code];

@@ -34,9 +34,9 @@ Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
     const Motion<Real>& m = state_.bodies.motion[body];
     Contact contact{.a = id_of(state_.bodies.slot[body])};
     if ((code & Support::wall_bit) != 0) {
-        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
-        contact.face = wall.face;
-        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
+        const std::uint32_t wall = code & ~Support::wall_bit;
+        contact.face = state_.bounds.face(wall);
+        contact.normal = state_.bounds.contact(wall, m.x, static_cast<double>(m.radius), state_.resolution).normal;
     } else {
         contact.b = id_of(code);
         const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[code]];
@@ -80,8 +80,8 @@ std::vector<Contact> Engine<Real>::contacts() const {
         }
     }
     for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
-    // A face's id is not set, which is the last of all.
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
+    // A face's id is not set, which is the last of all. A body may touch an obstacle in several places.
+    std::stable_sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
         return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
     });
     return contacts;
