@@ -68,12 +68,21 @@ template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);
 
-/// Whether bodies come to lie on obstacles. They are piled there, not held: gravity has to press them on.
-inline bool may_lie_on_obstacles(double e, const Laws& laws) { return e < 1 && laws.gravity != Vec3{}; }
-
 /// The part of its radius at which the centre of a body that has sunk into a surface is stopped: a surface has no
 /// thickness, and contacts give way.
 inline constexpr double deepest_in_surface = 0.5;
+
+/// Whether a body that moves with `velocity` (m/s) may come to lie on an obstacle. It is piled there, not held, so
+/// gravity has to press it on; and it goes straight for a piece, in which a curved surface must not bend away from that
+/// by more than it may sink in.
+template <class Real>
+bool may_lie_on_obstacle(const State<Real>& state, const Support& support, double radius, const Vec3& velocity,
+                         double e) {
+    constexpr double longest_piece = 1.0 / 480;
+    const double way = length(velocity) * longest_piece;
+    const double deepest = (1 - deepest_in_surface) * state.bounds.obstacles()->contact_distance(radius);
+    return e < 1 && state.laws.gravity != Vec3{} && 0.5 * std::abs(support.bend) * way * way <= deepest;
+}
 
 /// m/s, the approach above which a piled body strikes a wall or facet.
 template <class Real>

@@ -111,7 +111,8 @@ bool is_obstacle(const State<Real>& state, const Support& support) {
 /// A support that a body touches at `time`: whether the body comes to rest there.
 template <class Real>
 bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
-    if (is_obstacle(state, support) && !may_lie_on_obstacles(e, state.laws)) return false;
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    if (is_obstacle(state, support) && !may_lie_on_obstacle(state, support, radius, v, e)) return false;
     const Pressure pressure = pressure_here(state, body, support, v);
     if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
     return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
@@ -130,7 +131,9 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     // What its contact did not keep from sinking in: that belongs to the contact, and is no impact.
     const bool only_stops = is_piled && leans && approach <= striking_speed_at(state, body, support.wall());
     if (only_stops) encounter.restitution = 0;
-    const bool may_rest = !is_piled && (!leans || may_lie_on_obstacles(encounter.restitution, state.laws));
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    const bool may_rest =
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.restitution));
     bool come_to_rest = may_rest && rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
