@@ -118,7 +118,9 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
         }
     }
     if (bounds.obstacles() == nullptr) return;
-    bounds.obstacles()->for_each_contact(m.x, radius + margin,
+    // Those too to which it slides while the list lasts.
+    constexpr double ahead = 1.0 / 50; // s
+    bounds.obstacles()->for_each_contact(m.x, radius + margin + length(velocity_of(m)) * ahead,
                                          [&](std::uint32_t facet) { add(bounds.first_facet() + facet); });
 }
 

@@ -174,10 +174,15 @@ double predict_piled_at_facet(const State<Real>& state, Index body, std::uint32_
     const double contact = obstacles.contact_distance(static_cast<double>(m.radius));
     const double touch = obstacles.time_to(facet, m.x, v, {}, contact, horizon);
     if (touch <= horizon && strikes_wall(state, body, wall, touch)) return m.t + touch;
-    const double stop = obstacles.time_to(facet, m.x, v, {}, deepest_in_surface * contact, horizon);
-    if (stop == no_impact) return no_impact;
-    const Vec3 n = obstacles.impact(facet, m.x, v * stop, static_cast<double>(m.radius)).normal;
-    return dot(v, n) > approach_rounding<Real>(v, {}, n) ? m.t + stop : no_impact;
+    // One that was stopped already, and goes along a surface that bends towards it, is so again halfway to it.
+    const double distance = obstacles.impact(facet, m.x, {}, static_cast<double>(m.radius)).gap + contact;
+    for (const double depth : {deepest_in_surface * contact, 0.5 * std::min(distance, deepest_in_surface * contact)}) {
+        const double stop = obstacles.time_to(facet, m.x, v, {}, depth, horizon);
+        if (stop == no_impact) return no_impact;
+        const Vec3 n = obstacles.impact(facet, m.x, v * stop, static_cast<double>(m.radius)).normal;
+        if (dot(v, n) > approach_rounding<Real>(v, {}, n)) return m.t + stop;
+    }
+    return no_impact;
 }
 
 /// When a body meets a facet of an obstacle.
