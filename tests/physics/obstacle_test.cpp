@@ -192,7 +192,7 @@ TEST(Obstacles, NothingTunnelsWhereFrustumsMeet) {
         };
     };
     for (const double gravity : {0.0, g}) {
-        const unsigned shots = gravity == 0 ? 1000 : 200;
+        const unsigned shots = gravity == 0 ? 300 : 40;
         shoot_out_of(drum_prison(), gravity, shots, aim_at_seam(2, 1.5));
         shoot_out_of(drum_prison(), gravity, shots, aim_at_seam(2, 0.3));
         shoot_out_of(cone_prison(), gravity, shots, aim_at_seam(2, 0));
