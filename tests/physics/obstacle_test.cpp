@@ -191,13 +191,11 @@ TEST(Obstacles, NothingTunnelsWhereFrustumsMeet) {
             return Vec3{radius * std::cos(angle), radius * std::sin(angle), height};
         };
     };
-    for (const double gravity : {0.0, g}) {
-        const unsigned shots = gravity == 0 ? 300 : 40;
-        shoot_out_of(drum_prison(), gravity, shots, aim_at_seam(2, 1.5));
-        shoot_out_of(drum_prison(), gravity, shots, aim_at_seam(2, 0.3));
-        shoot_out_of(cone_prison(), gravity, shots, aim_at_seam(2, 0));
-        shoot_out_of(cone_prison(), gravity, shots, aim_at_seam(0, 2));
-    }
+    constexpr unsigned shots = 100;
+    shoot_out_of(drum_prison(), 0, shots, aim_at_seam(2, 1.5));
+    shoot_out_of(drum_prison(), 0, shots, aim_at_seam(2, 0.3));
+    shoot_out_of(cone_prison(), 0, shots, aim_at_seam(2, 0));
+    shoot_out_of(cone_prison(), 0, shots, aim_at_seam(0, 2));
 }
 
 TEST(Obstacles, GasStaysInsideAndKeepsItsEnergy) {
