@@ -40,6 +40,9 @@ struct Attractor {
 struct WorldOptions {
     Vec3 gravity{};  ///< m/s^2, uniform
     Region region{}; ///< what bounds the world; open space by default
+    /// What stands in it. Impact::face counts obstacles on from the faces of the region: from 6 in a box, from the
+    /// number of planes, from 1 in a shell, from 0 in open space. Not together with periodic faces.
+    std::vector<Obstacle> obstacles{};
     Precision precision = Precision::double_precision;
     /// m, a power of two; 0 means 2^-40 m in double (a world of +-8e6 m) and 2^-20 m in single (+-8e12 m).
     double resolution = 0;

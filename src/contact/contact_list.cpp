@@ -110,11 +110,18 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
     const std::uint32_t slot = state_.bodies.listed[a].slot;
     const Motion<Real>& m = state_.bodies.motion[state_.bodies.slots[slot]];
     const auto radius = static_cast<double>(m.radius);
-    if (!state_.bounds.may_touch(m.x, radius + margin, state_.resolution)) return;
-    for (std::uint32_t k = 0; k < state_.bounds.walls().size(); ++k) {
-        if (state_.bounds.gap(state_.bounds.walls()[k], m.x, {}, radius, state_.resolution) > margin) continue;
-        found.push_back({a, nobody, slot, Support::wall_bit | k});
+    const Bounds& bounds = state_.bounds;
+    const auto add = [&](std::uint32_t wall) { found.push_back({a, nobody, slot, Support::wall_bit | wall}); };
+    if (bounds.may_touch_wall(m.x, radius + margin, state_.resolution)) {
+        for (std::uint32_t k = 0; k < bounds.first_facet(); ++k) {
+            if (bounds.gap(bounds.walls()[k], m.x, {}, radius, state_.resolution) <= margin) add(k);
+        }
     }
+    if (bounds.obstacles() == nullptr) return;
+    // Those too to which it slides while the list lasts.
+    constexpr double ahead = 1.0 / 50; // s
+    bounds.obstacles()->for_each_contact(m.x, radius + margin + length(velocity_of(m)) * ahead,
+                                         [&](std::uint32_t facet) { add(bounds.first_facet() + facet); });
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -273,7 +280,7 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
     Encounter encounter;
     double inverse = 1 / static_cast<double>(bodies.mass[body]);
     if (name.is_wall()) {
-        encounter = encounter_of(state_, body, state_.bounds.walls()[name.wall()]);
+        encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()));
         at_walls_.push_back(number);
     } else {
         const Index other = bodies.slots[found.code];

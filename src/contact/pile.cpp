@@ -139,6 +139,7 @@ void Pile<Real>::end_piece(double at) {
     measure_walls();
     close_contacts();
     pass([&](const ContactRun<Real>& run) { return solver_->solve_hard(run, static_cast<Real>(1 / piece_)); });
+    note_carried();
     come_to_rest();
 }
 
@@ -579,13 +580,34 @@ void Pile<Real>::measure_walls() {
         ContactGroup<Real>& group = list_.group_of(name);
         const std::size_t lane = name.lane();
         const Motion<Real>& m = state_.bodies.motion[bodies_[group.a[lane]]];
-        const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
-        const Vec3 normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        group.gap[lane] =
-            static_cast<Real>(state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), state_.resolution));
+        const Touch touch = state_.bounds.contact(name.wall(), m.x, static_cast<double>(m.radius), state_.resolution);
+        group.gap[lane] = static_cast<Real>(touch.gap);
         for (int axis = 0; axis < 3; ++axis) {
-            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(normal, axis));
+            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(touch.normal, axis));
         }
+    });
+}
+
+/// Closes the contacts with facets that bodies have left for others: they carried them so far.
+template <class Real>
+void Pile<Real>::leave_facets() {
+    for_each_facet([this](std::uint32_t number) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        if (!(group.impulse[lane] > 0) || !std::isinf(group.gap[lane])) return;
+        carried_[group.a[lane]] = 1;
+        close(number, std::numeric_limits<double>::infinity());
+    });
+}
+
+/// Notes whom obstacles carry.
+template <class Real>
+void Pile<Real>::note_carried() {
+    for_each_facet([this](std::uint32_t number) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        if (group.impulse[name.lane()] > 0) carried_[group.a[name.lane()]] = 1;
     });
 }
 
@@ -594,6 +616,7 @@ void Pile<Real>::measure_walls() {
 template <class Real>
 void Pile<Real>::close_contacts() {
     reopen_contacts();
+    leave_facets();
     for_each_marked(fast | gone, [this](const ContactName& name) {
         const ContactGroup<Real>& group = list_.group_of(name);
         const std::size_t lane = name.lane();
@@ -681,6 +704,18 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const double closing = length(to_double(movers_[a].v) - to_double(movers_[b].v));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
     return closing > least_strike_ && way >= gap && closing > strike_of(name);
+}
+
+/// Whether a body may sink so deep into an obstacle in the piece that it has to be stopped.
+template <class Real>
+bool Pile<Real>::may_sink(const ContactName& name) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const std::uint32_t a = group.a[name.lane()];
+    if ((marks_[a] & gone) != 0) return false;
+    const auto radius = static_cast<double>(state_.bodies.motion[bodies_[a]].radius);
+    const double deepest = (1 - deepest_in_surface) * state_.bounds.obstacles()->contact_distance(radius);
+    const double way = 1.001 * length(to_double(movers_[a].v)) * piece_ + 2 * state_.resolution.metres;
+    return way >= static_cast<double>(group.gap[name.lane()]) + deepest;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -778,7 +813,8 @@ void Pile<Real>::arrive(double at) {
     collect(untold_);
 }
 
-/// What the hard pass leaves of the velocities; those whom no contact with a moving body carried or pushed are let go.
+/// What the hard pass leaves of the velocities; those whom no contact with a moving body or an obstacle carried or
+/// pushed are let go.
 template <class Real>
 void Pile<Real>::come_to_rest() {
     const bool had_far = has_far_;

@@ -60,6 +60,9 @@ public:
         for_each_marked(fast, [&](const ContactName& name) {
             if (may_strike(name, static_cast<double>(list_.group_of(name).gap[name.lane()]))) tell(name);
         });
+        for_each_facet([&](std::uint32_t number) {
+            if (may_sink(list_.names()[number])) tell(list_.names()[number]);
+        });
     }
     /// m/s
     [[nodiscard]] double told_speed() const { return told_speed_; }
@@ -131,6 +134,16 @@ private:
     template <class F>
     void pass(F&& solve);
     void measure_walls();
+    /// Calls f(number) for the contacts with obstacles.
+    template <class F>
+    void for_each_facet(F&& f) const {
+        if (state_.bounds.obstacles() == nullptr) return;
+        for (const std::uint32_t number : list_.at_walls()) {
+            if (state_.bounds.is_facet(list_.names()[number].wall())) f(number);
+        }
+    }
+    void leave_facets();
+    void note_carried();
     void close_contacts();
     void close(std::uint32_t number, double gap);
     void reopen_contacts();
@@ -138,6 +151,7 @@ private:
     [[nodiscard]] double approach_of(const ContactName& name) const;
     [[nodiscard]] double strike_of(const ContactName& name) const;
     [[nodiscard]] bool may_strike(const ContactName& name, double gap) const;
+    [[nodiscard]] bool may_sink(const ContactName& name) const;
     template <class F>
     void for_each_marked(std::uint8_t marks, F&& f) const {
         if ((all_marks_ & marks) == 0) return;

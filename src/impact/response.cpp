@@ -103,9 +103,16 @@ Pressure pressure_here(const State<Real>& state, Index body, const Support& supp
     return pressure;
 }
 
+template <class Real>
+bool is_obstacle(const State<Real>& state, const Support& support) {
+    return support.is_wall() && state.bounds.is_facet(support.wall());
+}
+
 /// A support that a body touches at `time`: whether the body comes to rest there.
 template <class Real>
 bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    if (is_obstacle(state, support) && !may_lie_on_obstacle(state, support, radius, v, e)) return false;
     const Pressure pressure = pressure_here(state, body, support, v);
     if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
     return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
@@ -119,8 +126,15 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     Vec3 v = velocity_of(state.bodies.motion[body]);
     const double approach = dot(v, support.normal);
     bool stays = false;
+    const bool leans = is_obstacle(state, support);
     const bool is_piled = state.bodies.kind[body] == Kind::piled;
-    bool come_to_rest = !is_piled && rests(state, body, support, v, approach, encounter.restitution);
+    // What its contact did not keep from sinking in: that belongs to the contact, and is no impact.
+    const bool only_stops = is_piled && leans && approach <= striking_speed_at(state, body, support.wall());
+    if (only_stops) encounter.restitution = 0;
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    const bool may_rest =
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.restitution));
+    bool come_to_rest = may_rest && rests(state, body, support, v, approach, encounter.restitution);
     if (approach > approach_rounding<Real>(v, {}, support.normal)) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
@@ -129,7 +143,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
         come_to_rest =
-            come_to_rest || (squeezed && !is_piled && pressure_here(state, body, support, v).acceleration >= 0);
+            come_to_rest || (squeezed && may_rest && pressure_here(state, body, support, v).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -145,27 +159,52 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         set_velocity(state, body, v);
         occurrence.entry.outer_impulse += -(support.normal * response.impulse) - response.friction_impulse;
         write_down(response, occurrence);
+        occurrence.is_impact = !only_stops;
     }
     const double remaining = state.laws.kick_interval - time;
-    if (come_to_rest) {
+    if (come_to_rest && leans) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+    } else if (come_to_rest) {
         hold_against(state, body, support, remaining, occurrence.entry);
     } else if (stays) {
         refresh_hold(state, body, remaining, occurrence.entry);
     }
 }
 
+/// Undoes what roundings brought a body into a facet: in many low bounces on a surface that bends round the body, they
+/// could add up until a small one comes out on the other side.
+template <class Real>
+void put_back(State<Real>& state, Index body, std::uint32_t wall, Entry& entry) {
+    constexpr double least = 4; // units
+    constexpr double most = 64; // units; more is no rounding
+    Motion<Real>& m = state.bodies.motion[body];
+    const Touch touch = state.bounds.impact(wall, m.x, {}, static_cast<double>(m.radius), state.resolution);
+    const double depth = -touch.gap * state.resolution.per_metre;
+    if (depth < least || depth > most) return;
+    const Int3 shift = round_to_units(touch.normal * touch.gap, state.resolution);
+    m.x = m.x + shift;
+    entry.lost_to_restitution += mass_of(state, body) * dot(state.laws.gravity, to_metres(shift, state.resolution));
+}
+
 template <class Real>
 void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence) {
-    const Bounds::Wall& wall = state.bounds.walls()[event.wall()];
+    const std::uint32_t wall = event.wall();
     const Motion<Real>& m = state.bodies.motion[event.a];
-    const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
-    const Encounter encounter = encounter_of(state, event.a, wall);
-    Support support = support_by_wall(state, event.wall(), state.bounds.normal(wall, m.x, d, state.resolution), m);
+    const Vec3 a = acceleration_of(state, event.a);
+    const double duration = event.time - m.t;
+    const Vec3 d = displacement(velocity_of(m), a, duration);
+    const Encounter encounter = encounter_of(state, event.a, state.bounds.surface(wall));
+    const Touch touch = state.bounds.impact(wall, m.x, d, static_cast<double>(m.radius), state.resolution);
+    Support support = state.bounds.is_facet(wall)
+                          ? support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration)
+                          : support_by_wall(state, wall, touch.normal, m);
     support.friction = encounter.friction;
     take_part(state, event.a, event.time, occurrence.entry);
+    if (state.bounds.is_facet(wall)) put_back(state, event.a, wall, occurrence.entry);
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
-                         .face = wall.face,
+                         .face = state.bounds.face(wall),
                          .x = m.x,
                          .arm = support.normal * static_cast<double>(m.radius),
                          .normal = support.normal};

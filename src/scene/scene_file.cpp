@@ -1,4 +1,5 @@
 #include "scene/bodies_reader.hpp"
+#include "scene/obstacle_reader.hpp"
 #include "scene/reader.hpp"
 #include "scene/region_reader.hpp"
 #include "scene/scene.hpp"
@@ -94,6 +95,14 @@ void read_world(TableReader table, Scene& scene) {
     }
     table.finish();
     for (const auto& [key, line] : table.lines()) scene.lines["world." + key] = line;
+}
+
+void read_obstacles(TableReader& top, Scene& scene) {
+    const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+    for (TableReader& table : top.tables("obstacle")) {
+        scene.lines["obstacles[" + std::to_string(scene.options.obstacles.size()) + "]"] = table.line();
+        scene.options.obstacles.push_back(read_obstacle(table, folder));
+    }
 }
 
 std::vector<Material> read_materials(TableReader& top) {
@@ -210,6 +219,7 @@ Scene read_scene(TableReader& top, const std::filesystem::path& file, const Over
         scene.lines["region"] = table->line();
         scene.options.region = read_region(table->table());
     }
+    read_obstacles(top, scene);
     if (const auto table = top.find("output")) read_output(table->table(), scene);
     scene.options.record_impacts = scene.outputs.record_impacts;
     const std::vector<Material> materials = read_materials(top);

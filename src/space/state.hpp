@@ -91,12 +91,12 @@ Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     return encounter_of(state.laws, state.bodies, a, state.bodies, b);
 }
 
-/// How a body meets a face: the face's e and mu where it has them, else the body's.
+/// How a body meets a face or an obstacle: the surface's e and mu where it has them, else the body's.
 template <class Real>
-Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall& wall) {
+Encounter encounter_of(const State<Real>& state, Index body, const Surface& surface) {
     const Bodies<Real>& bodies = state.bodies;
-    return {wall.surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
-            wall.surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
+    return {surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
+            surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
 }
 
 /// What accelerates a body between impacts, m/s^2.

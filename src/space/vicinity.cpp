@@ -635,7 +635,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
-    if (state_.bounds.walls().empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
+    if (state_.bounds.is_empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
     if (is_told(body)) return;
     if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);
@@ -669,6 +669,11 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
         const double speed = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
+    }
+    if (const Obstacles* obstacles = state_.bounds.obstacles()) {
+        const double reach = reach_of(m, g, epoch_ + windows_ * length_ * (1 + slack)) + margin;
+        const double gap = obstacles->distance(m.x, reach) - (radius + margin);
+        first = std::min(first, time_to_cover(gap, length(v), length(g)));
     }
     return first;
 }

@@ -90,7 +90,7 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
       placement_(state_) {
     const WorldOptions& options = setting_.options;
     state_.resolution = setting_.resolution;
-    state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
+    state_.bounds = Bounds(options.region, options.obstacles, setting_.resolution, setting_.first_origin);
     state_.laws.gravity = options.gravity;
     state_.laws.rest_time = options.rest_time;
     state_.laws.sleeping = options.sleeping;

@@ -153,6 +153,15 @@ void Engine<Real>::check_inside(const Motion<Real>& motion, std::size_t place) c
                     "reaches " + shown(-gap) + " m through face " + std::to_string(wall.face) + " of the region",
                     place);
     }
+    const Obstacles* obstacles = state_.bounds.obstacles();
+    if (obstacles == nullptr) return;
+    obstacles->for_each_near(motion.x, radius, [&](std::uint32_t facet) {
+        const double gap = obstacles->impact(facet, motion.x, {}, radius).gap;
+        if (gap >= -touching_tolerance(state_, 2 * radius)) return;
+        throw Error(ErrorCode::overlap, "position",
+                    "reaches " + shown(-gap) + " m into obstacle " + std::to_string(obstacles->obstacle_of(facet)),
+                    place);
+    });
 }
 
 template <class Real>

@@ -39,9 +39,9 @@ Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
     const Motion<Real>& m = state_.bodies.motion[body];
     Contact contact{.a = id_of(state_.bodies.slot[body])};
     if ((code & Support::wall_bit) != 0) {
-        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
-        contact.face = wall.face;
-        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
+        const std::uint32_t wall = code & ~Support::wall_bit;
+        contact.face = state_.bounds.face(wall);
+        contact.normal = state_.bounds.contact(wall, m.x, static_cast<double>(m.radius), state_.resolution).normal;
     } else {
         contact.b = id_of(code);
         const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[code]];
@@ -85,7 +85,8 @@ std::vector<Contact> Engine<Real>::contacts() const {
         }
     }
     for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
-    std::sort(contacts.begin(), contacts.end(), comes_before);
+    // A body may touch an obstacle in several places.
+    std::stable_sort(contacts.begin(), contacts.end(), comes_before);
     return contacts;
 }
 
@@ -94,6 +95,7 @@ template <class Real>
 void Engine<Real>::find_touching(std::vector<ContactChange>& touching) const {
     touching.clear();
     for (const Contact& contact : contacts()) touching.push_back({contact.a, contact.b, contact.face});
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
 }
 
 /// What has changed since the step began.

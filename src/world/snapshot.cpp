@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 6;
+constexpr std::uint32_t snapshot_version = 7;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -85,6 +85,27 @@ void transfer(Archive& archive, Region& region) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, Frustum& frustum) {
+    archive(frustum.base, frustum.axis, frustum.height, frustum.base_radius, frustum.top_radius, frustum.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Mesh& mesh) {
+    archive(mesh.vertices, mesh.triangles, mesh.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Obstacle& obstacle) {
+    auto kind = static_cast<std::uint32_t>(obstacle.index());
+    archive(kind);
+    if constexpr (Archive::reading) {
+        if (kind > 1) refuse("names an unknown kind of obstacle");
+        if (kind == 1) obstacle = Mesh{};
+    }
+    std::visit([&archive](auto& shape) { archive(shape); }, obstacle);
+}
+
+template <class Archive>
 void transfer(Archive& archive, BodyId& id) {
     archive(id.slot, id.generation, id.world);
 }
@@ -96,9 +117,9 @@ void transfer(Archive& archive, Attractor& attractor) {
 
 template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
-    archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
-            o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference, o.record_impacts,
-            o.least_recorded_impulse, o.interpolation, o.sleeping, o.record_contacts);
+    archive(o.gravity, o.region, o.obstacles, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic,
+            o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference,
+            o.record_impacts, o.least_recorded_impulse, o.interpolation, o.sleeping, o.record_contacts);
 }
 
 template <class Archive, class Real>
@@ -363,7 +384,7 @@ bool Engine<Real>::holds_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const auto stands = [&](const Support& s) {
         check_finite(s.normal, "support");
-        if (s.is_wall()) return s.wall() < state_.bounds.walls().size();
+        if (s.is_wall()) return s.wall() < state_.bounds.first_facet();
         return s.code < b.slots.size() && b.slots[s.code] != no_index && b.kind[b.slots[s.code]] == Kind::fixed;
     };
     return std::all_of(b.holds.begin(), b.holds.end(), [&](const auto& entry) {
@@ -397,8 +418,7 @@ bool Engine<Real>::contacts_are_sound() const {
             check_not_negative(c.normal, "contact");
             check_finite(c.friction, "contact");
             const bool is_wall = (c.code & Support::wall_bit) != 0;
-            return leans(c.a) &&
-                   (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : bears(c.code));
+            return leans(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
         });
     };
     const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && b.kind[b.slots[slot]] != Kind::fixed; };

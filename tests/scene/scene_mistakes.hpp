@@ -31,7 +31,7 @@ gravity = [0, 0, -9.81
     {R"(titel = "x"
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
-     "attractor, bodies, material, material_rule, output, region, run, seed, title, world"},
+     "attractor, bodies, material, material_rule, obstacle, output, region, run, seed, title, world"},
     {R"(
 [wrold]
 )",
@@ -256,6 +256,67 @@ kind = "shell"
 radius = 0
 )",
      "s.toml:3: region.radius: must be > 0", ""},
+    {R"([[obstacle]]
+radius = 1
+)",
+     "s.toml:1: obstacle[0].kind: is missing", ""},
+    {R"([[obstacle]]
+kind = "ball"
+)",
+     "s.toml:2: obstacle[0].kind: must be one of cylinder, cone, frustum, disc, mesh, got 'ball'", ""},
+    {R"([[obstacle]]
+kind = "cylinder"
+height = 1
+)",
+     "s.toml:1: obstacle[0].radius: is missing", ""},
+    {R"([[obstacle]]
+kind = "cone"
+height = 1
+radius = -1
+)",
+     "s.toml:4: obstacle[0].radius: must be > 0", ""},
+    {R"([[obstacle]]
+kind = "cylinder"
+height = 1
+radius = 1
+axis = [0, 0, 0]
+)",
+     "s.toml:5: obstacle[0].axis: must have a direction", ""},
+    {R"([[obstacle]]
+kind = "frustum"
+height = 0
+base_radius = 1
+top_radius = 1
+)",
+     "s.toml:5: obstacle[0].top_radius: must differ from base_radius where the height is 0", ""},
+    {R"([[obstacle]]
+kind = "frustum"
+height = 1
+base_radius = 0
+top_radius = 0
+)",
+     "s.toml:5: obstacle[0].top_radius: must be > 0 where base_radius is 0", ""},
+    {R"([[obstacle]]
+kind = "disc"
+radius = 1
+hole_radius = 1
+)",
+     "s.toml:3: obstacle[0].radius: must be greater than hole_radius", ""},
+    {R"([[obstacle]]
+kind = "disc"
+radius = 1
+height = 1
+)",
+     "s.toml:4: obstacle[0].height: unknown key", "axis, base, friction, hole_radius, kind, radius, restitution"},
+    {R"([[obstacle]]
+kind = "mesh"
+)",
+     "s.toml:1: obstacle[0].file: is missing", ""},
+    {R"([[obstacle]]
+kind = "mesh"
+file = "no_such.obj"
+)",
+     "no_such.obj: ", ""},
     {R"([region]
 kind = "open"
 max = [0, 0, 0]
