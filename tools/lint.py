@@ -37,6 +37,7 @@ LAYERS = {
     "src/observe": ("collision",),
     "src/scene": ("collision",),
     "src/validate": ("collision", "scene"),
+    "apps/viewer/render": (),
     "apps/viewer": ("collision", "scene"),
     "apps/carom": ("scene", "validate"),
 }

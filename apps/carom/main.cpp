@@ -31,8 +31,9 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const auto commands = app.get_subcommands();
     if (commands.empty()) {
-        return report("a command is required: run, bench, validate, render, info or diff\ncarom: try 'carom --help'",
-                      carom::cli::bad_usage);
+        return report(
+            "a command is required: run, bench, validate, view, render, info or diff\ncarom: try 'carom --help'",
+            carom::cli::bad_usage);
     }
     return report(fmt::format("{}\ncarom: try 'carom {} --help'", error.what(), commands.front()->get_name()),
                   carom::cli::bad_usage);
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
     carom::cli::add_run_command(app, exit_code);
     carom::cli::add_bench_command(app, exit_code);
     carom::cli::add_validate_command(app, exit_code);
+    carom::cli::add_view_command(app, exit_code);
     carom::cli::add_render_command(app, exit_code);
     carom::cli::add_info_command(app, exit_code);
     carom::cli::add_diff_command(app, exit_code);

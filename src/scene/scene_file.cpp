@@ -4,6 +4,7 @@
 #include "scene/region_reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/text_file.hpp"
+#include "scene/view_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -221,6 +222,7 @@ Scene read_scene(TableReader& top, const std::filesystem::path& file, const Over
     }
     read_obstacles(top, scene);
     if (const auto table = top.find("output")) read_output(table->table(), scene);
+    scene.view = read_view(top);
     scene.options.record_impacts = scene.outputs.record_impacts;
     const std::vector<Material> materials = read_materials(top);
     read_material_rules(top, materials, scene);

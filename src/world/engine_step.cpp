@@ -391,9 +391,9 @@ void Engine<Real>::positions_at(double time, std::span<const BodyId> ids, std::s
     }
     check_finite(time, "time");
     const double end = clock_.seconds();
-    // The time of an impact, a rounded sum, may be a little late.
+    // The time of an impact, a rounded sum, may be a little late, and time() - report().advanced a little early.
     const double slack = 2 * std::numeric_limits<double>::epsilon() * end;
-    if (time > end + slack || time < last_start_) {
+    if (time > end + slack || time < last_start_ - slack) {
         throw Error(ErrorCode::out_of_range, "time",
                     "must lie in the last step, [" + shown(last_start_) + ", " + shown(end) + "] s, got " +
                         shown(time));

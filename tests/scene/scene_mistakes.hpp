@@ -31,7 +31,7 @@ gravity = [0, 0, -9.81
     {R"(titel = "x"
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
-     "attractor, bodies, material, material_rule, obstacle, output, region, run, seed, title, world"},
+     "attractor, bodies, camera, material, material_rule, obstacle, output, picture, region, run, seed, title, world"},
     {R"(
 [wrold]
 )",
@@ -736,6 +736,46 @@ around = "sun"
 velocity = { distribution = "orbit" }
 )",
      "s.toml:3: bodies[0].around: must be the name of an [[attractor]], but the scene has none", ""},
+    {R"([camera]
+position = [1, 2, 3]
+target = [1, 2, 3]
+)",
+     "s.toml:3: camera.target: must differ from position", ""},
+    {R"([camera]
+field_of_view = 180
+)",
+     "s.toml:2: camera.field_of_view: must be in [1, 170] degrees, got 180", ""},
+    {R"([camera]
+up = [0, 0, 0]
+)",
+     "s.toml:2: camera.up: must have a direction", ""},
+    {R"([[camera.path]]
+time = 0
+target = [0, 0, 0]
+)",
+     "s.toml:1: camera.path[0].position: is missing", ""},
+    {R"([[camera.path]]
+time = 1
+position = [1, 0, 0]
+target = [0, 0, 0]
+[[camera.path]]
+time = 1
+position = [2, 0, 0]
+target = [0, 0, 0]
+)",
+     "s.toml:6: camera.path[1].time: must be later than that of the key before, 1 s, got 1", ""},
+    {R"([picture]
+colour_by = "sped"
+)",
+     "s.toml:2: picture.colour_by: must be one of material, speed, mass, impact_rate, temperature, got 'sped'", "did you mean 'speed'?"},
+    {R"([picture]
+time_scale = 0
+)",
+     "s.toml:2: picture.time_scale: must be in [1e-12, 1e12], got 0", ""},
+    {R"([picture]
+trail = 3
+)",
+     "s.toml:2: picture.trail: unknown key; did you mean 'trails'?", "colour_by, forces, moment, time_scale, trails"},
 };
 // clang-format on
 
