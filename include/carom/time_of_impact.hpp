@@ -1111,6 +1111,7 @@ SurfaceImpact<T> time_to_triangle(const Vector3<T>& position, const Vector3<T>& 
 /// The other parameters and the method are those of time_to_triangle(). A centre on the axis touches all round: the
 /// normal is along the axis.
 template <class T>
+// NOLINTNEXTLINE(readability-function-size): a motion and a frustum have so many parameters.
 SurfaceImpact<T> time_to_frustum(const Vector3<T>& position, const Vector3<T>& velocity, const Vector3<T>& acceleration,
                                  T radius, const Vector3<T>& base, const Vector3<T>& axis, T height, T base_radius,
                                  T top_radius, T horizon) {

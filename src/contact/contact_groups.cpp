@@ -107,7 +107,7 @@ HWY_INLINE HWY_ATTR Side<D> load_side(D lanes, const Mover<Number<D>>* movers,
 template <class D>
 HWY_INLINE HWY_ATTR void store_velocities(D lanes, const Vectors<D>& v, Mover<Number<D>>* movers,
                                           const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
-    HWY_ALIGN std::array<std::array<Number<D>, group_size>, 3> out;
+    HWY_ALIGN std::array<std::array<Number<D>, group_size>, 3> out{};
     store(lanes, v, out, 0);
     for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
         movers[indices[lane + k]].v = {out[0][k], out[1][k], out[2][k]};
@@ -171,7 +171,7 @@ HWY_INLINE HWY_ATTR Rub<D> rub(D lanes, const Vectors<D>& before, const Vectors<
     const auto after = scaled(wanted, part);
     const auto change = after - before;
     const auto half_speed = hn::Div(hn::Set(lanes, Number<D>{0.5}), mass);
-    HWY_ALIGN std::array<Number<D>, group_size> taken;
+    HWY_ALIGN std::array<Number<D>, group_size> taken{};
     hn::StoreU(hn::Neg(dot(change, sliding + scaled(change, half_speed))), lanes, taken.data());
     for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) losses += static_cast<double>(taken[k]);
     return {after, change};
@@ -258,7 +258,7 @@ template <class D>
 HWY_INLINE HWY_ATTR void note_pressings(D lanes, const ContactRun<Number<D>>& run,
                                         const std::array<std::uint32_t, group_size>& movers, std::size_t lane,
                                         hn::Vec<D> pressings) {
-    HWY_ALIGN std::array<Number<D>, group_size> out;
+    HWY_ALIGN std::array<Number<D>, group_size> out{};
     store(lanes, pressings, out, 0);
     for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
         Number<D>& pressing = run.pressings[movers[lane + k]];
@@ -343,13 +343,14 @@ constexpr auto targets = std::to_array<Target<Real>>({
 #    endif
 #    if HWY_TARGETS & HWY_EMU128
     {"scalar", N_EMU128::solver<Real>},
-#    else
+#    elif HWY_TARGETS & HWY_SCALAR
     {"scalar", N_SCALAR::solver<Real>},
 #    endif
 });
 
 } // namespace
 
+/// Where the scalar one is not compiled, another stands for it.
 template <class Real>
 const GroupSolver<Real>& group_solver() {
     const auto* const target = std::find_if(targets<Real>.begin(), targets<Real>.end(),

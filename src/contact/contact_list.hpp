@@ -77,7 +77,6 @@ public:
 
 private:
     static constexpr std::size_t leaner_grain = 1024;
-    static constexpr std::size_t contact_grain = 1024;
     static constexpr std::size_t colours = 4;
 
     struct Found {

@@ -72,7 +72,6 @@ public:
     [[nodiscard]] std::span<const Index> released() const { return released_; }
 
 private:
-    static constexpr std::uint32_t nobody = ContactList<Real>::nobody;
     static constexpr std::size_t leaner_grain = 1024;
     static constexpr std::size_t contact_grain = 1024;
 
@@ -94,11 +93,9 @@ private:
         std::uint32_t number = 0; ///< in the list
         double gap = 0;           ///< m
     };
-    /// What is particular about a mover.
-    enum Mark : std::uint8_t {
-        fast = 1, ///< its speed could make a strike
-        gone = 2, ///< it was let go
-    };
+    // What is particular about a mover.
+    static constexpr std::uint8_t fast = 1; ///< its speed could make a strike
+    static constexpr std::uint8_t gone = 2; ///< it was let go
     /// What a part of a loop over the leaners comes to.
     struct Findings {
         bool has_fast = false;

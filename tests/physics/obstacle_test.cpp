@@ -205,11 +205,12 @@ TEST(Obstacles, GasStaysInsideAndKeepsItsEnergy) {
         Random random(1);
         for (int added = 0; added < 100;) {
             const Vec3 place = random.vector(prison.inner / std::sqrt(3.0) - 0.06);
-            try {
-                world.add({.position = place, .velocity = random.vector(3), .radius = 0.06});
-                ++added;
-            } catch (const carom::Error&) { // another is there
-            }
+            const std::vector<BodyId> ids = world.ids();
+            const bool is_taken = std::any_of(ids.begin(), ids.end(),
+                                              [&](BodyId id) { return length(world.get(id).position - place) < 0.13; });
+            if (is_taken) continue;
+            world.add({.position = place, .velocity = random.vector(3), .radius = 0.06});
+            ++added;
         }
         const double before = world.energy().kinetic;
         run(world, 20);
@@ -314,8 +315,15 @@ void expect_at_rest(const World& world, double weight, const std::string& where)
     EXPECT_LT(length(force_on(world, 0) - Vec3{0, 0, -weight}), 1e-3 * weight) << where;
 }
 
+/// Place k of a cubic lattice, `side` wide and of edge 1, layer by layer.
+Vec3 lattice(std::size_t k, std::size_t side) {
+    const std::size_t y = k / side % side;
+    const std::size_t z = k / (side * side);
+    return {static_cast<double>(k % side), static_cast<double>(y), static_cast<double>(z)};
+}
+
 TEST(Obstacles, BallsComeToRestOnThemAndAreCarried) {
-    const auto rest = [](const carom::Obstacle& obstacle, std::vector<Vec3> places, const std::string& where) {
+    const auto rest = [](const carom::Obstacle& obstacle, const std::vector<Vec3>& places, const std::string& where) {
         World world({.gravity = {0, 0, -g}, .obstacles = {obstacle}});
         double weight = 0;
         for (const Vec3& place : places) {
@@ -330,8 +338,8 @@ TEST(Obstacles, BallsComeToRestOnThemAndAreCarried) {
     const World tip = rest(funnel, {{0.01, 0.003, 3}}, "in the tip of a cone");
     // It touches all round: its centre is r sqrt(2) above the tip.
     EXPECT_NEAR(tip.get(tip.ids()[0]).position.z, 0.25 * std::sqrt(2.0), 2 * give);
-    std::vector<Vec3> many;
-    for (int k = 0; k < 60; ++k) many.push_back({0.6 * (k % 3) - 0.6, 0.6 * (k / 3 % 3) - 0.61, 3 + 0.6 * (k / 9)});
+    std::vector<Vec3> many(60);
+    for (std::size_t k = 0; k < many.size(); ++k) many[k] = lattice(k, 3) * 0.6 + Vec3{-0.6, -0.61, 3};
     rest(funnel, many, "sixty in a cone");
     const Frustum trough{.base = {-4, 0, 0}, .axis = {1, 0, 0}, .height = 8, .base_radius = 1, .top_radius = 1};
     rest(trough, {{0, 0.3, 0}, {1, -0.2, 0}, {-2, 0, 0.1}}, "in a lying cylinder");
@@ -381,10 +389,8 @@ TEST(Obstacles, BodiesRunOutOfAHopper) {
     World world({.gravity = {0, 0, -g},
                  .region = std::vector<carom::Plane>{{.point = {0, 0, -2}, .surface = {.restitution = 0}}},
                  .obstacles = {Frustum{.height = 2, .base_radius = 0.5, .top_radius = 2.5}}});
-    for (int k = 0; k < 150; ++k) {
-        world.add({.position = {0.3 * (k % 5) - 0.6, 0.3 * (k / 5 % 5) - 0.61, 1.4 + 0.3 * (k / 25)},
-                   .radius = 0.1,
-                   .restitution = 0.3});
+    for (std::size_t k = 0; k < 150; ++k) {
+        world.add({.position = lattice(k, 5) * 0.3 + Vec3{-0.6, -0.61, 1.4}, .radius = 0.1, .restitution = 0.3});
     }
     run(world, 12);
     for (const BodyId id : world.ids()) EXPECT_LT(world.get(id).position.z, 0);
@@ -402,13 +408,12 @@ World busy_world(WorldOptions options) {
                          terrain(3, 7, [](double x, double y) { return 0.3 * std::sin(2 * x) * std::cos(3 * y); })};
     World world(options);
     Random random(3);
-    for (int k = 0; k < 120; ++k) {
-        world.add(
-            {.position = Vec3{0.4 * (k % 5) - 0.8, 0.4 * (k / 5 % 5) - 0.8, 3 + 0.4 * (k / 25)} + random.vector(0.03),
-             .velocity = random.vector(k % 10 == 0 ? 30 : 1),
-             .radius = random.between(0.08, 0.16),
-             .restitution = k % 7 == 0 ? 1 : 0.5,
-             .friction = 0.3});
+    for (std::size_t k = 0; k < 120; ++k) {
+        world.add({.position = lattice(k, 5) * 0.4 + Vec3{-0.8, -0.8, 3} + random.vector(0.03),
+                   .velocity = random.vector(k % 10 == 0 ? 30 : 1),
+                   .radius = random.between(0.08, 0.16),
+                   .restitution = k % 7 == 0 ? 1 : 0.5,
+                   .friction = 0.3});
     }
     return world;
 }
