@@ -22,6 +22,7 @@ void pack(const Moment& moment, double time, const Vec3& origin, std::optional<B
 
 class Stage {
 public:
+    Stage() = default; ///< of open space
     explicit Stage(Region region) : region_(std::move(region)) {}
 
     /// The drawing of `moment` at `time` (s, in its step), valid until the next call.

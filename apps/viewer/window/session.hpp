@@ -94,7 +94,7 @@ private:
     std::filesystem::path file_;
     std::string title_;
     std::unique_ptr<Simulation> simulation_;
-    Stage stage_{OpenSpace{}};
+    Stage stage_;
     CameraRig rig_;
     Camera home_;
     Ball ball_;
