@@ -59,7 +59,7 @@ private:
     Panels panels_;
     PanelState state_;
     std::unique_ptr<Session> session_;
-    Stage empty_{OpenSpace{}}; ///< what is shown without a session
+    Stage empty_; ///< what is shown without a session
     std::future<std::unique_ptr<Session>> opening_;
     int width_ = 1;
     int height_ = 1;
