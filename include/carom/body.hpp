@@ -27,14 +27,16 @@ struct BodyId {
     [[nodiscard]] constexpr bool is_set() const { return slot != 0xffffffffU; }
 };
 
-/// Mass of a static body: it never moves, and takes any momentum.
+/// Mass of a body that takes any momentum, and that nothing which happens makes move otherwise: a static body, or with a
+/// velocity a kinematic one. That goes straight on at this velocity until it is set anew; it passes through faces and
+/// static and kinematic bodies.
 inline constexpr double infinite_mass = std::numeric_limits<double>::infinity();
 
 /// A point mass with a collision radius.
 struct Body {
     Vec3 position{};             ///< m, relative to the world's origin; rounded to the world's resolution
-    Vec3 velocity{};             ///< m/s; zero for a static body
-    double mass = 1;             ///< kg, > 0; infinite_mass makes the body static
+    Vec3 velocity{};             ///< m/s
+    double mass = 1;             ///< kg, > 0; infinite_mass makes the body static, or kinematic if it has a velocity
     double radius = 0.5;         ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
     double restitution = 1;      ///< e in [0, 1]; two bodies use the larger
     double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)

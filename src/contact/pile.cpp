@@ -173,7 +173,7 @@ void Pile<Real>::gather() {
     places_.assign(bodies.size(), nobody);
     bodies.loads.assign(bodies.size(), {});
     for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] == Kind::fixed) statics_.push_back(i);
+        if (is_prescribed(bodies.kind[i])) statics_.push_back(i);
         if (bodies.kind[i] != Kind::piled) continue;
         places_[i] = static_cast<std::uint32_t>(leaners_.size());
         leaners_.push_back({.body = i, .inverse_mass = 1 / static_cast<double>(bodies.mass[i])});
@@ -220,6 +220,7 @@ void Pile<Real>::measure_all() {
 
 template <class Real>
 void Pile<Real>::advance_all(double at) {
+    now_ = at;
     for_each_leaner([&](std::size_t, std::size_t k) {
         Leaner& l = leaners_[k];
         Entry entry;
@@ -236,6 +237,7 @@ void Pile<Real>::settle_accounts() {
     struct Sums {
         ExactVectorSum momentum;
         ExactSum lost;
+        ExactSum prescribed_work;
         ExactSum held_mass_time;
     };
     if (accounts_.empty()) return;
@@ -243,16 +245,20 @@ void Pile<Real>::settle_accounts() {
     for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         sums[part].momentum.add(accounts_[k].momentum);
         sums[part].lost.add(accounts_[k].lost);
+        sums[part].prescribed_work.add(accounts_[k].prescribed_work);
         sums[part].held_mass_time.add(accounts_[k].held_mass_time);
     });
     for (std::size_t part = 1; part < parts_of(accounts_.size(), leaner_grain); ++part) {
         sums[0].momentum.add(sums[part].momentum);
         sums[0].lost.add(sums[part].lost);
+        sums[0].prescribed_work.add(sums[part].prescribed_work);
         sums[0].held_mass_time.add(sums[part].held_mass_time);
     }
     state_.books.outer_impulse.add(sums[0].momentum.value());
     state_.books.lost_to_friction.add(friction_loss_);
-    state_.books.lost_to_restitution.add(sums[0].lost.value() - friction_loss_);
+    const double work = sums[0].prescribed_work.value();
+    state_.books.prescribed_work.add(work);
+    state_.books.lost_to_restitution.add(sums[0].lost.value() + work - friction_loss_);
     state_.books.held_mass_time.add(sums[0].held_mass_time.value());
     friction_loss_ = 0;
     accounts_.clear();
@@ -291,7 +297,7 @@ void Pile<Real>::find_contacts() {
 template <class Real>
 void Pile<Real>::add_pair(std::vector<Found>& found, Index a, Index b) const {
     const Bodies<Real>& bodies = state_.bodies;
-    const bool is_static = bodies.kind[b] == Kind::fixed;
+    const bool is_static = is_prescribed(bodies.kind[b]);
     // Of two leaners both have the other in their lists.
     if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
     const Motion<Real>& m_a = bodies.motion[a];
@@ -306,7 +312,8 @@ void Pile<Real>::add_pair(std::vector<Found>& found, Index a, Index b) const {
                       .apart = apart,
                       .touching = touching,
                       .mass = reduced_mass(a, b),
-                      .friction = encounter.friction}});
+                      .friction = encounter.friction,
+                      .surface = bodies.kind[b] == Kind::kinematic ? 1U : 0U}});
 }
 
 template <class Real>
@@ -390,12 +397,17 @@ void Pile<Real>::sort_contacts() {
     orders_.resize(all_found_.size());
     for (std::uint32_t k = 0; k < orders_.size(); ++k) orders_[k] = order_of(k);
     std::sort(orders_.begin(), orders_.end());
+    surfaces_.resize(1);
     contacts_.resize(orders_.size());
     names_.resize(orders_.size());
     least_strike_ = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < orders_.size(); ++k) {
         names_[k] = all_found_[orders_[k].contact].name;
         contacts_[k] = all_found_[orders_[k].contact].contact;
+        if (contacts_[k].surface != 0) {
+            contacts_[k].surface = static_cast<std::uint32_t>(surfaces_.size());
+            surfaces_.emplace_back();
+        }
         least_strike_ = std::min(least_strike_, striking_speed(names_[k].restitution, 0, state_.laws));
     }
     clear_for_reuse(columns_);
@@ -459,7 +471,9 @@ void Pile<Real>::measure(std::uint32_t number) {
         return;
     }
     const std::uint32_t code = contact.b == nobody ? names_[number].code : 0;
-    if ((code & Support::wall_bit) != 0) {
+    if (contact.surface != 0) {
+        look_at_surface(number);
+    } else if ((code & Support::wall_bit) != 0) {
         const Motion<Real>& m = state_.bodies.motion[a.body];
         const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
         contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
@@ -478,10 +492,22 @@ void Pile<Real>::measure(std::uint32_t number) {
     if (contact.impulse == 0) contact.friction_impulse = {};
 }
 
+/// The same where the other moves as prescribed.
+template <class Real>
+void Pile<Real>::look_at_surface(std::uint32_t number) {
+    Contact& contact = contacts_[number];
+    const Motion<Real>& m = state_.bodies.motion[leaners_[contact.a].body];
+    const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[names_[number].code]];
+    const Vec3 delta = separation(state_, m, other, {}, velocity_of(other) * (now_ - other.t));
+    contact.normal = contact_normal(delta, Vec3{});
+    contact.gap = length(delta) - contact.touching;
+    surfaces_[contact.surface] = velocity_of(other);
+}
+
 /// m/s, by the velocities that the bodies had before the passes.
 template <class Real>
 double Pile<Real>::approach_of(const Contact& contact) const {
-    const Vec3 other = contact.b == nobody ? Vec3{} : leaners_[contact.b].before;
+    const Vec3 other = contact.b == nobody ? surfaces_[contact.surface] : leaners_[contact.b].before;
     return dot(leaners_[contact.a].before - other, contact.normal);
 }
 
@@ -497,9 +523,8 @@ double Pile<Real>::strike_of(std::uint32_t number) const {
 template <class Real>
 bool Pile<Real>::may_strike(std::uint32_t number) const {
     const Contact& contact = contacts_[number];
-    const Vec3 other = contact.b == nobody ? Vec3{} : leaners_[contact.b].v;
     // The normal turns on the way.
-    const double closing = length(leaners_[contact.a].v - other);
+    const double closing = length(leaners_[contact.a].v - velocity_of_other(contact));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
     return closing > least_strike_ && way >= contact.gap && closing > strike_of(number);
 }
@@ -585,7 +610,7 @@ template <class Real>
 double Pile<Real>::solve(Contact& contact, const Softness& softness) {
     if (contact.is_open) return 0;
     Leaner& a = leaners_[contact.a];
-    const Vec3 slip = (contact.b == nobody ? Vec3{} : leaners_[contact.b].v) - a.v;
+    const Vec3 slip = velocity_of_other(contact) - a.v;
     const double parting = dot(slip, contact.normal);
     double impulse = 0;
     if (contact.gap > 0) {
@@ -598,6 +623,7 @@ double Pile<Real>::solve(Contact& contact, const Softness& softness) {
     impulse = std::max(impulse, -contact.impulse);
     contact.impulse += impulse;
     if (contact.impulse > 0 && contact.b != nobody) a.is_supported = leaners_[contact.b].is_supported = true;
+    if (contact.impulse > 0 && contact.surface != 0) a.is_supported = true;
     push(contact, contact.normal * impulse);
     return contact.friction == 0 ? 0 : rub(contact, slip - contact.normal * parting);
 }
@@ -621,6 +647,7 @@ template <class Real>
 void Pile<Real>::push(const Contact& contact, const Vec3& impulse) {
     Leaner& a = leaners_[contact.a];
     a.v -= impulse * a.inverse_mass;
+    if (contact.surface != 0) accounts_[contact.a].prescribed_work -= dot(impulse, surfaces_[contact.surface]);
     if (contact.b == nobody) return;
     Leaner& b = leaners_[contact.b];
     b.v += impulse * b.inverse_mass;
@@ -642,7 +669,7 @@ void Pile<Real>::enter_loads() {
     top_speed_ = std::sqrt(*std::max_element(tops.begin(), tops.end()));
 }
 
-/// Lets those go that no contact with a moving body carried or pushed.
+/// Lets those go that no contact with anything that moves carried or pushed.
 template <class Real>
 void Pile<Real>::release_unsupported() {
     for (Leaner& l : leaners_) {

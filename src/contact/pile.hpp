@@ -98,6 +98,7 @@ private:
     struct Account {
         Vec3 momentum{};           ///< N s
         double lost = 0;           ///< J
+        double prescribed_work = 0; ///< J
         double held_mass_time = 0; ///< kg s
     };
     /// What a leaner touches, or may while the list lasts. Two cache lines: the passes stream through them.
@@ -113,6 +114,7 @@ private:
         double friction = 0;      ///< Coulomb's mu
         Vec3 friction_impulse{};  ///< N s in a piece, on the other
         bool is_open = false;     ///< left to the impacts: the two approach too fast
+        std::uint32_t surface = 0; ///< in surfaces_: how the other moves if that is prescribed
     };
     /// What is seldom asked of a contact.
     struct ContactName {
@@ -183,6 +185,10 @@ private:
 
     void measure_all();
     void measure(std::uint32_t number);
+    void look_at_surface(std::uint32_t number);
+    [[nodiscard]] Vec3 velocity_of_other(const Contact& contact) const {
+        return contact.b == nobody ? surfaces_[contact.surface] : leaners_[contact.b].v;
+    }
     [[nodiscard]] double approach_of(const Contact& contact) const;
     [[nodiscard]] double strike_of(std::uint32_t number) const;
     [[nodiscard]] bool may_strike(std::uint32_t number) const;
@@ -212,12 +218,14 @@ private:
     std::vector<Account> accounts_; ///< per leaner
     std::vector<ContactName> names_;
     std::vector<Contact> contacts_; ///< in the order in which they are solved
+    std::vector<Vec3> surfaces_{Vec3{}}; ///< m/s, the first of what rests, the others of one contact each
     std::vector<Column> columns_;
     std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_
     double listed_until_ = 0;                          ///< s since the start of the step
     double margin_ = 0;                                ///< m, gaps up to this are listed
 
     // The piece.
+    double now_ = 0;           ///< s since the start of the step, when all were brought up to date
     double piece_ = 0;         ///< s
     double friction_loss_ = 0; ///< J, not in the books yet
     double top_speed_ = 0;     ///< m/s, of the leaners

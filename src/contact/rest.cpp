@@ -143,7 +143,12 @@ Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3
 template <class Real>
 Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed) {
     const double distance = static_cast<double>(motion.radius) + static_cast<double>(fixed.radius);
-    return {.code = slot, .normal = normal, .bend = -1 / distance};
+    const Vec3 velocity = velocity_of(fixed);
+    return {.code = slot,
+            .normal = normal,
+            .bend = -1 / distance,
+            .is_driven = velocity != Vec3{},
+            .velocity = velocity};
 }
 
 template <class Real>
@@ -154,7 +159,7 @@ Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::
     const double across = dot(velocity, n);
     const double slide_squared = std::max(0.0, length_squared(velocity) - across * across);
     const double kick = std::max(0.0, dot(pull, n)) * state.laws.kick_interval;
-    return {dot(state.laws.gravity + pull, n) + support.bend * slide_squared, kick};
+    return {dot(state.laws.gravity + pull - support.acceleration, n) + support.bend * slide_squared, kick};
 }
 
 template <class Real>

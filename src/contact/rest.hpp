@@ -63,7 +63,7 @@ struct Pressure {
     double kick = 0;         ///< m/s, what the attractors' kicks add between two impacts: no real approach speed
 };
 
-/// On a body at motion.x in `slot` that passes there with `velocity` (m/s).
+/// On a body at motion.x in `slot` that passes there with `velocity` (m/s) relative to the support.
 template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);

@@ -6,7 +6,8 @@ namespace carom::core {
 
 namespace {
 
-/// Whether a body that touches a static one is pressed to it: gravity may be outweighed by the speed along its curve.
+/// Whether a body that touches a static or kinematic one is pressed to it: gravity may be outweighed by the speed along
+/// its curve.
 template <class Real>
 bool presses_on(const State<Real>& state, const Path<Real>& body, const Path<Real>& fixed, const Vec3& n,
                 const Vec3& velocity) {
@@ -21,8 +22,8 @@ double immediate(const State<Real>& state, const Path<Real>& a, const Path<Real>
     const Vec3 n = contact_normal(delta, Vec3{});
     const double approach = dot(m.v_a - m.v_b, n);
     if (approach > approach_rounding<Real>(m.v_a, m.v_b, n)) return 0;
-    if (b.kind == Kind::fixed) return presses_on(state, a, b, n, m.v_a) ? 0 : no_impact;
-    if (a.kind == Kind::fixed) return presses_on(state, b, a, -n, m.v_b) ? 0 : no_impact;
+    if (is_prescribed(b.kind)) return presses_on(state, a, b, n, m.v_a - m.v_b) ? 0 : no_impact;
+    if (is_prescribed(a.kind)) return presses_on(state, b, a, -n, m.v_b - m.v_a) ? 0 : no_impact;
     return pressing_along(n, length(delta), m.v_b - m.v_a, pull) > 0 ? 0 : no_impact;
 }
 
@@ -66,7 +67,7 @@ double time_to_image(const State<Real>& state, const Path<Real>& a, const Path<R
     const double horizon = horizon_of(start, pull != Vec3{} ? state.laws.kick_interval : until);
     double time = time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon);
     if (time == 0) time = immediate(state, a, b, m, delta, pull);
-    const bool two_move = a.kind != Kind::fixed && b.kind != Kind::fixed;
+    const bool two_move = !is_prescribed(a.kind) && !is_prescribed(b.kind);
     return two_move && pull != Vec3{} && time < no_impact ? end_of_contact(state, m, delta, pull, time) : time;
 }
 
@@ -136,7 +137,7 @@ double predict_in_order(const State<Real>& state, const Path<Real>& a, const Pat
 /// Whether contacts keep two bodies apart, unless one strikes the other.
 template <class Real>
 bool is_in_pile(const Path<Real>& a, const Path<Real>& b) {
-    const auto can_be = [](Kind kind) { return kind == Kind::piled || kind == Kind::fixed; };
+    const auto can_be = [](Kind kind) { return kind == Kind::piled || is_prescribed(kind); };
     return (a.kind == Kind::piled && can_be(b.kind)) || (b.kind == Kind::piled && can_be(a.kind));
 }
 
@@ -185,7 +186,7 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
     if (both_free && !state.bounds.any_periodic()) {
         return predict_free_pair(state, bodies.motion[i], bodies.motion[j], until);
     }
-    if (bodies.kind[i] == Kind::fixed && bodies.kind[j] == Kind::fixed) return no_impact;
+    if (is_prescribed(bodies.kind[i]) && is_prescribed(bodies.kind[j])) return no_impact;
     if (rests_on(bodies, i, bodies.slot[j]) || rests_on(bodies, j, bodies.slot[i])) return no_impact;
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }

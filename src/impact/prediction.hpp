@@ -73,7 +73,7 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall);
 /// Calls f(time, wall) for every wall that a body meets until `until`.
 template <class Real, class F>
 void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {
-    if (state.bodies.kind[body] == Kind::fixed) return;
+    if (is_prescribed(state.bodies.kind[body])) return;
     const Motion<Real>& m = state.bodies.motion[body];
     const double reach = reach_of(m, acceleration_of(state, body), until);
     if (!state.bounds.may_touch(m.x, reach, state.resolution)) return;

@@ -55,14 +55,14 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
 /// Brings a body to the time of its event and outdates its other events.
 template <class Real>
 void take_part(State<Real>& state, Index body, double time, Entry& entry) {
-    if (state.bodies.kind[body] == Kind::fixed) return;
+    if (is_prescribed(state.bodies.kind[body])) return;
     advance(state, body, time, entry);
     ++state.bodies.course[body].version;
 }
 
 template <class Real>
 void set_velocity(State<Real>& state, Index body, const Vec3& v) {
-    if (state.bodies.kind[body] != Kind::fixed) state.bodies.motion[body].v = rounded<Real>(v);
+    if (!is_prescribed(state.bodies.kind[body])) state.bodies.motion[body].v = rounded<Real>(v);
 }
 
 template <class Real>
@@ -99,37 +99,50 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
 template <class Real>
 Pressure pressure_here(const State<Real>& state, Index body, const Support& support, const Vec3& v) {
     Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.slot[body], support, v);
-    pressure.acceleration = std::max(pressure.acceleration, dot(acceleration_of(state, body), support.normal));
+    pressure.acceleration =
+        std::max(pressure.acceleration, dot(acceleration_of(state, body) - support.acceleration, support.normal));
     return pressure;
 }
 
-/// A support that a body touches at `time`: whether the body comes to rest there.
+/// A support that a body, not piled, touches with `v` relative to it: whether the body comes to rest there. `rounding`:
+/// what is slower does not approach at all. On a support that moves it leans, as on another body.
 template <class Real>
-bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
+bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double rounding, double e) {
     const Pressure pressure = pressure_here(state, body, support, v);
-    if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
-    return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
+    const double approach = dot(v, support.normal);
+    if (approach <= rounding) return pressure.acceleration > 0;
+    const double felt = std::max(0.0, approach - pressure.kick);
+    if (support.is_driven) return felt < resting_speed(e, pressure.acceleration, state.laws.rest_time);
+    return comes_to_rest(e, felt, pressure.acceleration, state.laws.rest_time);
 }
 
-/// A body, already at its time, against something that does not move: a face or a static body. An approach that is
-/// mere rounding is no impact: the body only finds one more support, beside those it may have.
+/// A body, already at its time, against something whose motion is prescribed: a face, a static or a kinematic body. An
+/// approach that is mere rounding is no impact: the body only finds one more support, beside those it may have.
 template <class Real>
 void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, Occurrence& occurrence) {
     const double time = occurrence.impact.offset;
     Vec3 v = velocity_of(state.bodies.motion[body]);
-    const double approach = dot(v, support.normal);
+    const Vec3 relative = v - support.velocity;
+    const double approach = dot(relative, support.normal);
+    const double rounding = approach_rounding<Real>(v, support.velocity, support.normal);
     bool stays = false;
     const bool is_piled = state.bodies.kind[body] == Kind::piled;
-    bool come_to_rest = !is_piled && rests(state, body, support, v, approach, encounter.restitution);
-    if (approach > approach_rounding<Real>(v, {}, support.normal)) {
+    bool come_to_rest = !is_piled && rests(state, body, support, relative, rounding, encounter.restitution);
+    if (come_to_rest && support.is_driven) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+        return;
+    }
+    if (approach > rounding) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
-        haste.lasts = haste.lasts && !(pressure_here(state, body, support, v).acceleration > 0);
+        haste.lasts = haste.lasts && !(pressure_here(state, body, support, relative).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
-        come_to_rest =
-            come_to_rest || (squeezed && !is_piled && pressure_here(state, body, support, v).acceleration >= 0);
+        occurrence.is_crushed = haste.jams && support.is_driven;
+        come_to_rest = come_to_rest || (squeezed && !is_piled && !support.is_driven &&
+                                        pressure_here(state, body, support, relative).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -137,13 +150,15 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
-            apply_haste(haste, state.laws, approach, length(v), encounter, occurrence);
+            apply_haste(haste, state.laws, approach, length(relative), encounter, occurrence);
         }
-        Vec3 support_velocity{};
+        Vec3 support_velocity = support.velocity;
         const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
                                                   support_velocity, encounter.restitution, encounter.friction);
         set_velocity(state, body, v);
-        occurrence.entry.outer_impulse += -(support.normal * response.impulse) - response.friction_impulse;
+        const Vec3 impulse = -(support.normal * response.impulse) - response.friction_impulse;
+        occurrence.entry.outer_impulse += impulse;
+        occurrence.entry.prescribed_work += dot(impulse, support.velocity);
         write_down(response, occurrence);
     }
     const double remaining = state.laws.kick_interval - time;
@@ -348,7 +363,7 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     write_down(response, occurrence);
 }
 
-/// A body, already at its time, against a static one.
+/// A body, already at its time, against a static or kinematic one.
 template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
@@ -376,9 +391,9 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
                          .x = bodies.motion[a].x,
                          .arm = n * static_cast<double>(bodies.motion[a].radius),
                          .normal = n};
-    if (bodies.kind[a] == Kind::fixed) {
+    if (is_prescribed(bodies.kind[a])) {
         meet_static(state, b, a, -n, occurrence);
-    } else if (bodies.kind[b] == Kind::fixed) {
+    } else if (is_prescribed(bodies.kind[b])) {
         meet_static(state, a, b, n, occurrence);
     } else {
         meet_body(state, a, b, meeting, path_b.acceleration - path_a.acceleration, occurrence);

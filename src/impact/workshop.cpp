@@ -130,7 +130,7 @@ Outturn Workshop<Real>::run(std::span<const Index> bodies, std::span<const Event
 /// Executes an event; false where it needs a body of another island.
 template <class Real>
 bool Workshop<Real>::take(const Event& event) {
-    if (!event.at_wall() && !guests_[event.b].is_own && local_.bodies.kind[event.b] != Kind::fixed) {
+    if (!event.at_wall() && !guests_[event.b].is_own && !is_prescribed(local_.bodies.kind[event.b])) {
         Guest& other = guests_[event.b];
         if ((*memberships_)[other.body] != nowhere) {
             meetings.push_back(other.body);
@@ -149,11 +149,12 @@ bool Workshop<Real>::take(const Event& event) {
 
 template <class Real>
 void Workshop<Real>::execute_event(const Event& event) {
-    const bool two_move = !event.at_wall() && local_.bodies.kind[event.b] != Kind::fixed;
+    const bool two_move = !event.at_wall() && !is_prescribed(local_.bodies.kind[event.b]);
     note_turn(event.a);
     if (two_move) note_turn(event.b);
     log_ids.push_back(ids_of(local_.bodies, event));
     execute(local_, event, log.emplace_back());
+    given_up_ = given_up_ || log.back().is_crushed;
     // Both have to be on their new ways before either looks for the other.
     set_out(event.a, event.time);
     if (two_move) set_out(event.b, event.time);

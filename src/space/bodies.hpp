@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,7 +28,11 @@ enum class Kind : std::uint8_t {
     fixed, ///< nothing: a static body
     held,  ///< its Hold: it rests against faces or static bodies
     piled, ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
+    kinematic, ///< its prescribed velocity: straight on, through faces and static bodies, and takes any momentum
 };
+
+/// Whether nothing that happens changes how a body moves: its mass is infinite.
+constexpr bool is_prescribed(Kind kind) { return kind == Kind::fixed || kind == Kind::kinematic; }
 
 /// Whether something carries a body, so that it is not in free flight.
 constexpr bool rests(Kind kind) { return kind == Kind::held || kind == Kind::piled; }
@@ -68,6 +73,10 @@ struct Support {
     Vec3 normal{};          ///< unit vector from the body into the support
     double bend = 0;        ///< 1/m, of the path of a body that slides along it; positive where it presses the body on
     double friction = 0;    ///< between the two
+    // Of a support that moves as prescribed. A held body has none of them.
+    bool is_driven = false;
+    Vec3 velocity{};     ///< m/s, of its surface where the body touches it
+    Vec3 acceleration{}; ///< m/s^2
 
     static constexpr std::uint32_t wall_bit = 0x80000000U;
     [[nodiscard]] bool is_wall() const { return (code & wall_bit) != 0; }
@@ -113,6 +122,7 @@ struct Bodies {
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
+    std::set<std::uint32_t> kinematics;       ///< slots of the kinematic bodies
     std::vector<ContactForce> contacts;       ///< of the piled bodies, in their order; between steps
     std::vector<Load> loads;                  ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
@@ -189,6 +199,7 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     let_go(bodies, index);
     const std::uint32_t slot = bodies.slot[index];
     std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
+    bodies.kinematics.erase(slot);
     bodies.slots[bodies.slot.back()] = index;
     bodies.for_each_array([index](auto& array) {
         array[index] = array.back();

@@ -37,6 +37,7 @@ struct Laws {
 struct Entry {
     double lost_to_restitution = 0; ///< J
     double lost_to_friction = 0;    ///< J
+    double prescribed_work = 0;     ///< J, done by what moves as prescribed
     double held_mass_time = 0;      ///< kg s held against uniform gravity
     Vec3 outer_impulse{};           ///< N s, without uniform gravity's
 };
@@ -46,12 +47,14 @@ struct Books {
     Sum lost_to_restitution;
     Sum lost_to_friction;
     Sum lost_to_drag;
+    Sum prescribed_work;
     Sum held_mass_time;      ///< kg s of the present step, held against uniform gravity
     VectorSum outer_impulse; ///< N s, without uniform gravity's of the present step
 
     void add(const Entry& entry) {
         lost_to_restitution.add(entry.lost_to_restitution);
         lost_to_friction.add(entry.lost_to_friction);
+        prescribed_work.add(entry.prescribed_work);
         held_mass_time.add(entry.held_mass_time);
         outer_impulse.add(entry.outer_impulse);
     }
@@ -108,6 +111,7 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
         return hold_of(state.bodies, i).acceleration;
     case Kind::fixed:
     case Kind::piled:
+    case Kind::kinematic:
         break;
     }
     return {};

@@ -23,6 +23,9 @@ double time_to_cover(double gap, double speed, double acceleration) {
     return 2 * gap / top;
 }
 
+/// Whether a body goes another way than in free flight.
+bool is_led(Kind kind) { return rests(kind) || kind == Kind::kinematic; }
+
 void sort_and_unite(std::vector<Index>& bodies) {
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
@@ -54,7 +57,7 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
         window_start_ = relative(window.from);
         window_end_ = static_cast<float>(exact_relative(window.to) + slack * length_);
         neighbours_.drop_extensions();
-        if (window.from == 0) charge_held();
+        if (window.from == 0) charge_led();
         if (window.begins_piece) charge_piled();
         renew_disturbed();
     } else {
@@ -170,7 +173,7 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
         plan_alone(part, body, 0);
         if (room_at(body, needed) < 0) ++without_room[part];
     });
-    charge_held();
+    charge_led();
     if (window.begins_piece) charge_piled();
     std::size_t all = 0;
     for (const std::size_t count : without_room) all += count;
@@ -285,10 +288,11 @@ void Vicinity<Real>::renew_exits() {
     }
 }
 
-/// Takes the room that the held bodies need in the step.
+/// Takes the room that the held and the kinematic bodies need in the step.
 template <class Real>
-void Vicinity<Real>::charge_held() {
+void Vicinity<Real>::charge_led() {
     for (const auto& [slot, hold] : state_.bodies.holds) charge(state_.bodies.slots[slot]);
+    for (const std::uint32_t slot : state_.bodies.kinematics) charge(state_.bodies.slots[slot]);
 }
 
 /// Takes the room that the piled bodies need in the piece.
@@ -307,7 +311,7 @@ void Vicinity<Real>::charge(Index body) {
     if (tracks_[body].room < 0) exits_.push_back(body);
 }
 
-/// m, at least what a held body moves until the end of the step, or a piled one until that of the piece; a held one may
+/// m, at least what a held or kinematic body moves until the end of the step, or a piled one until that of the piece; a held one may
 /// also be put back onto a curved support, by no more than it slid.
 template <class Real>
 double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const {
@@ -486,7 +490,7 @@ void Vicinity<Real>::take_track(Index body, float room, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const Kind kind = state_.bodies.kind[body];
     // The room of a body at rest is what it has beside its way in this step or piece.
-    const double way = rests(kind) ? resting_way(m, acceleration_of(state_, body), kind) : 0;
+    const double way = is_led(kind) ? resting_way(m, acceleration_of(state_, body), kind) : 0;
     put_track(body, track_of(m, kind, static_cast<double>(std::max(0.0F, room)) + way), room, now);
 }
 
@@ -538,19 +542,19 @@ void Vicinity<Real>::take_room(Index body, float now) {
         take_track(body, 0, now);
         return;
     }
-    const bool is_resting = rests(kind);
+    const bool is_bound = is_led(kind);
     const double speed = length(velocity_of(m) - frame_ * exact_relative(m.t));
     const double needed =
-        is_resting ? resting_way(m, acceleration_of(state_, body), kind) : speed * length_ * (1 + 2 * slack) + sag_;
+        is_bound ? resting_way(m, acceleration_of(state_, body), kind) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
     const double around = std::clamp(spare * speed * (horizon_ - lead_), typical_room_, most_rooms * typical_room_);
     const double ahead = speed * static_cast<double>(std::max(0.0F, middle_ - now));
-    const double room = around + (!is_resting && around >= ahead ? ahead : 0);
+    const double room = around + (!is_bound && around >= ahead ? ahead : 0);
     take_track(body, static_cast<float>(room), now);
     if (needed > room || tracks_[body].room < 0) {
         tracks_[body] = {.start = ticks_.of(m.x), .reach = -std::numeric_limits<float>::infinity(), .room = -1};
-    } else if (is_resting) {
+    } else if (is_bound) {
         tracks_[body].room -= static_cast<float>(needed);
     }
 }
@@ -624,7 +628,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
-    if (state_.bounds.walls().empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
+    if (state_.bounds.walls().empty() || is_prescribed(state_.bodies.kind[body]) || earliest >= windows_) return;
     if (is_told(body)) return;
     if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);

@@ -143,7 +143,7 @@ private:
     void renew_exits();
     [[nodiscard]] bool is_told(Index body) const;
     [[nodiscard]] bool are_told(Index a, Index b) const;
-    void charge_held();
+    void charge_led();
     void charge_piled();
     void charge(Index body);
     [[nodiscard]] double resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const;

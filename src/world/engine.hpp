@@ -101,7 +101,6 @@ private:
     void drop_last(std::size_t remaining);
     void check_overlaps_of_new(std::size_t first_new);
     BodyId give_id(Index index);
-    void check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const;
     void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap);
     void note_places(const std::vector<Index>& indices);
     void check_moved(const std::vector<Index>& indices);

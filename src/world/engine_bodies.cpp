@@ -45,6 +45,12 @@ void check_mass(double mass, std::size_t place) {
     check_kept<Real>(mass, "mass", place);
 }
 
+/// What a body of infinite mass is.
+template <class Real>
+Kind prescribed_kind(const Motion<Real>& motion) {
+    return velocity_of(motion) == Vec3{} ? Kind::fixed : Kind::kinematic;
+}
+
 template <class Real>
 bool is_finite(const Vector3<Real>& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -173,7 +179,7 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
                                  real(columns.radius, k, standard.radius)});
         bodies.slot.push_back(0);
         bodies.mass.append(static_cast<Real>(mass), place);
-        bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
+        bodies.kind.push_back(std::isinf(mass) ? prescribed_kind(bodies.motion.back()) : Kind::free);
         bodies.restitution.append(real(columns.restitution, k, standard.restitution), place);
         bodies.friction.append(real(columns.friction, k, standard.friction), place);
         bodies.material.append(element(columns.material, k, standard.material), place);
@@ -192,7 +198,7 @@ template <class Real>
 void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
     const std::size_t end = size();
     for (std::size_t i = first_new; i < end; ++i) {
-        if (state_.bodies.kind[i] != Kind::fixed) check_inside(state_.bodies.motion[i], i - first_new);
+        if (!is_prescribed(state_.bodies.kind[i])) check_inside(state_.bodies.motion[i], i - first_new);
     }
     for (std::size_t i = first_new; i < end; ++i) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
@@ -217,6 +223,7 @@ BodyId Engine<Real>::give_id(Index index) {
     }
     bodies.slots[slot] = index;
     bodies.slot[index] = slot;
+    if (bodies.kind[index] == Kind::kinematic) bodies.kinematics.insert(slot);
     return id_of(slot);
 }
 
@@ -225,13 +232,7 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
     const std::size_t count = columns.position.size();
     check_values(columns, count);
     if (count == 0) return {};
-    const Body standard;
-    if (columns.radius.empty()) check_radius(standard.radius, 0);
-    for (std::size_t k = 0; k < count; ++k) {
-        if (!std::isinf(element(columns.mass, k, standard.mass))) continue;
-        if (element(columns.velocity, k, Vec3{}) == Vec3{}) continue;
-        throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
-    }
+    if (columns.radius.empty()) check_radius(Body{}.radius, 0);
     islands_.vicinity().forget();
     const std::size_t first_new = size();
     forget_sums();
@@ -272,17 +273,6 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
 }
 
 template <class Real>
-void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const {
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.mass[indices[k]]));
-        const Vec3 velocity = element(columns.velocity, k, velocity_of(state_.bodies.motion[indices[k]]));
-        if (std::isinf(mass) && velocity != Vec3{}) {
-            throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
-        }
-    }
-}
-
-template <class Real>
 void Engine<Real>::note_places(const std::vector<Index>& indices) {
     for (const Index i : indices) placement_.note(i, i);
 }
@@ -290,7 +280,7 @@ void Engine<Real>::note_places(const std::vector<Index>& indices) {
 template <class Real>
 void Engine<Real>::check_moved(const std::vector<Index>& indices) {
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (state_.bodies.kind[indices[k]] != Kind::fixed) check_inside(state_.bodies.motion[indices[k]], k);
+        if (!is_prescribed(state_.bodies.kind[indices[k]])) check_inside(state_.bodies.motion[indices[k]], k);
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
         if (!other) continue;
         throw Error(ErrorCode::overlap, "position",
@@ -316,7 +306,7 @@ void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vecto
         if (!positions.empty()) bodies.motion[i].x = positions[k];
         if (!columns.radius.empty()) bodies.motion[i].radius = static_cast<Real>(columns.radius[k]);
         if (!columns.mass.empty() && std::isinf(columns.mass[k])) bodies.kind[i] = Kind::fixed;
-        if (!columns.mass.empty() && bodies.kind[i] == Kind::fixed && !std::isinf(columns.mass[k])) {
+        if (!columns.mass.empty() && is_prescribed(bodies.kind[i]) && !std::isinf(columns.mass[k])) {
             bodies.kind[i] = Kind::free;
         }
     }
@@ -353,7 +343,6 @@ template <class Real>
 void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& columns, Overlap overlap) {
     check_values(columns, ids.size());
     const std::vector<Index> indices = indices_of(ids);
-    check_static_rule(columns, indices);
     forget_sums();
     const std::vector<Kind> former_kinds = [&] {
         std::vector<Kind> kinds(indices.size());
@@ -366,10 +355,15 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);
-        if (former_kinds[k] == Kind::fixed && moved) release_from(state_.bodies, ids[k].slot);
-        if (former_kinds[k] == Kind::held) state_.bodies.holds.erase(ids[k].slot);
         Kind& kind = state_.bodies.kind[indices[k]];
         if (rests(kind)) kind = Kind::free;
+        if (is_prescribed(kind)) kind = prescribed_kind(state_.bodies.motion[indices[k]]);
+        const Kind former = former_kinds[k];
+        if (former == Kind::fixed && (moved || kind != Kind::fixed)) release_from(state_.bodies, ids[k].slot);
+        if (former == Kind::held) state_.bodies.holds.erase(ids[k].slot);
+        if (former == Kind::kinematic) state_.bodies.kinematics.erase(ids[k].slot);
+        if (kind == Kind::kinematic) state_.bodies.kinematics.insert(ids[k].slot);
+        if (kind != former && is_prescribed(kind)) islands_.vicinity().forget();
     }
 }
 
@@ -415,7 +409,9 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
     Bodies<Real>& bodies = state_.bodies;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         check_finite(changes[k], field, k);
-        if (bodies.kind[indices[k]] == Kind::fixed) throw Error(ErrorCode::out_of_range, "id", "the body is static", k);
+        if (!is_prescribed(bodies.kind[indices[k]])) continue;
+        const bool is_static = bodies.kind[indices[k]] == Kind::fixed;
+        throw Error(ErrorCode::out_of_range, "id", is_static ? "the body is static" : "the body is kinematic", k);
     }
     std::vector<Vector3<Real>> formers(indices.size());
     forget_sums();

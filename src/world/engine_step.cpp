@@ -58,7 +58,7 @@ double Engine<Real>::strongest_attraction() const {
     for (const PointField& field : state_.laws.fields) {
         double nearest = std::numeric_limits<double>::infinity();
         for (Index i = 0; i < size(); ++i) {
-            if (state_.bodies.kind[i] == Kind::fixed || state_.bodies.slot[i] == field.carrier) continue;
+            if (is_prescribed(state_.bodies.kind[i]) || state_.bodies.slot[i] == field.carrier) continue;
             const Vec3 d = to_metres(field.x - state_.bodies.motion[i].x, setting_.resolution);
             nearest = std::min(nearest, length_squared(d));
         }
@@ -176,12 +176,13 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
         watch.lap();
         pile_.end_piece(progress.reached);
         for (const Index body : pile_.released()) islands_.vicinity().disturb(body);
-        goes_on = !progress.work_cap_reached && !progress.edge_reached;
+        goes_on = !progress.ends_step();
     }
     pile_.end_step(progress.reached);
     report_.seconds.contacts += watch.lap();
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
+    report_.crushed = progress.crushed;
     report_solvers();
     return progress.reached;
 }
@@ -220,8 +221,8 @@ Progress Engine<Real>::resolve_piece(const Census& census, const Window& all, st
             end = std::min(end, progress.until);
             window.to = std::min(window.to, end);
             ++report_.windows;
-        } while (progress.reached < window.to && !progress.work_cap_reached && !progress.edge_reached);
-        if (progress.work_cap_reached || progress.edge_reached) break;
+        } while (progress.reached < window.to && !progress.ends_step());
+        if (progress.ends_step()) break;
     }
     return progress;
 }
@@ -259,6 +260,9 @@ void Engine<Real>::finish_bodies(double reached) {
         advance(state_, bodies.slots[slot], reached, entry);
         state_.books.add(entry);
     }
+    for (const std::uint32_t slot : bodies.kinematics) {
+        move_on(bodies.motion[bodies.slots[slot]], {}, reached, state_.resolution);
+    }
     std::array<CensusTaker, most_parts> takers{};
     const bool is_periodic = state_.bounds.any_periodic();
     for_each_in_parts(*executor_, bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
@@ -291,7 +295,7 @@ template <class Real>
 double Engine<Real>::sum_moving_mass() const {
     ExactSum sum;
     for (Index i = 0; i < size(); ++i) {
-        if (state_.bodies.kind[i] != Kind::fixed) sum.add(static_cast<double>(state_.bodies.mass[i]));
+        if (!is_prescribed(state_.bodies.kind[i])) sum.add(static_cast<double>(state_.bodies.mass[i]));
     }
     return sum.value();
 }
@@ -342,6 +346,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     ledger_.lost_to_restitution = state_.books.lost_to_restitution.value();
     ledger_.lost_to_friction = state_.books.lost_to_friction.value();
     ledger_.lost_to_drag = state_.books.lost_to_drag.value();
+    ledger_.prescribed_work = state_.books.prescribed_work.value();
     ledger_.outer_impulse = state_.books.outer_impulse.value();
 }
 

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 5;
+constexpr std::uint32_t snapshot_version = 6;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -156,13 +156,14 @@ void transfer(Archive& archive, ContactForce& force) {
 
 template <class Archive>
 void transfer(Archive& archive, Books& books) {
-    archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.outer_impulse);
+    archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.prescribed_work,
+            books.outer_impulse);
 }
 
 template <class Archive>
 void transfer(Archive& archive, Ledger& ledger) {
     archive(ledger.impacts, ledger.face_impacts, ledger.lost_to_restitution, ledger.lost_to_friction,
-            ledger.lost_to_drag, ledger.outer_impulse);
+            ledger.lost_to_drag, ledger.prescribed_work, ledger.outer_impulse);
 }
 
 template <class Archive>
@@ -276,8 +277,10 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     transfer(reader, state_.bodies);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
-    const auto& kinds = state_.bodies.kind;
-    state_.bodies.newly_piled = std::find(kinds.begin(), kinds.end(), Kind::piled) != kinds.end();
+    for (Index i = 0; i < size(); ++i) {
+        if (state_.bodies.kind[i] == Kind::piled) state_.bodies.newly_piled = true;
+        if (state_.bodies.kind[i] == Kind::kinematic) state_.bodies.kinematics.insert(state_.bodies.slot[i]);
+    }
 }
 
 /// A checksum finds accidents; whoever writes a right one may still have written nonsense.
@@ -331,9 +334,9 @@ bool Engine<Real>::bodies_are_sound() const {
         check_radius(static_cast<double>(m.radius), i);
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
-        const bool fixed = b.kind[i] == Kind::fixed;
-        if (b.kind[i] > Kind::piled || !(mass > 0) || std::isinf(mass) != fixed) return false;
-        if (fixed && velocity_of(m) != Vec3{}) return false;
+        const bool prescribed = is_prescribed(b.kind[i]);
+        if (b.kind[i] > Kind::kinematic || !(mass > 0) || std::isinf(mass) != prescribed) return false;
+        if (prescribed && (b.kind[i] == Kind::fixed) != (velocity_of(m) == Vec3{})) return false;
         if ((b.kind[i] == Kind::held) != b.holds.contains(b.slot[i])) return false;
     }
     return true;
