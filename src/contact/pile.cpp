@@ -330,11 +330,14 @@ void Pile<Real>::add_walls(std::vector<Found>& found, std::uint32_t a) const {
     if (!state_.bounds.may_touch(m.x, radius + margin_, state_.resolution)) return;
     for (std::uint32_t k = 0; k < state_.bounds.walls().size(); ++k) {
         const Bounds::Wall& wall = state_.bounds.walls()[k];
-        if (state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) > margin_) continue;
+        if (state_.bounds.gap(wall, m.x, {}, radius, m.t, state_.resolution) > margin_) continue;
         const Encounter encounter = encounter_of(state_, body, wall);
         found.push_back(
             {{.slot = state_.bodies.slot[body], .code = Support::wall_bit | k, .restitution = encounter.restitution},
-             {.a = a, .mass = static_cast<double>(state_.bodies.mass[body]), .friction = encounter.friction}});
+             {.a = a,
+              .mass = static_cast<double>(state_.bodies.mass[body]),
+              .friction = encounter.friction,
+              .surface = wall.is_driven ? 1U : 0U}});
     }
 }
 
@@ -471,13 +474,14 @@ void Pile<Real>::measure(std::uint32_t number) {
         return;
     }
     const std::uint32_t code = contact.b == nobody ? names_[number].code : 0;
-    if (contact.surface != 0) {
-        look_at_surface(number);
-    } else if ((code & Support::wall_bit) != 0) {
+    if ((code & Support::wall_bit) != 0) {
         const Motion<Real>& m = state_.bodies.motion[a.body];
         const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
         contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        contact.gap = state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), state_.resolution);
+        contact.gap = state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), now_, state_.resolution);
+        if (contact.surface != 0) surfaces_[contact.surface] = mean_velocity(wall, m.x);
+    } else if (contact.surface != 0) {
+        look_at_kinematic(number);
     } else {
         const Vec3 delta = contact.apart + (contact.b == nobody ? -a.moved : leaners_[contact.b].moved - a.moved);
         const double distance = length(delta);
@@ -492,9 +496,9 @@ void Pile<Real>::measure(std::uint32_t number) {
     if (contact.impulse == 0) contact.friction_impulse = {};
 }
 
-/// The same where the other moves as prescribed.
+/// The same where the other is a kinematic body.
 template <class Real>
-void Pile<Real>::look_at_surface(std::uint32_t number) {
+void Pile<Real>::look_at_kinematic(std::uint32_t number) {
     Contact& contact = contacts_[number];
     const Motion<Real>& m = state_.bodies.motion[leaners_[contact.a].body];
     const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[names_[number].code]];
@@ -502,6 +506,14 @@ void Pile<Real>::look_at_surface(std::uint32_t number) {
     contact.normal = contact_normal(delta, Vec3{});
     contact.gap = length(delta) - contact.touching;
     surfaces_[contact.surface] = velocity_of(other);
+}
+
+/// m/s, of a wall at a body, over the next piece: the way there is exact, and no swinging wall is taken for another.
+template <class Real>
+Vec3 Pile<Real>::mean_velocity(const Bounds::Wall& wall, const Int3& x) const {
+    const Vec3 now = Bounds::velocity(wall, x, {}, now_);
+    const double way = Bounds::offset_at(wall, now_ + piece_) - Bounds::offset_at(wall, now_);
+    return now - wall.normal * (way / piece_ + dot(now, wall.normal));
 }
 
 /// m/s, by the velocities that the bodies had before the passes.
@@ -524,6 +536,8 @@ template <class Real>
 bool Pile<Real>::may_strike(std::uint32_t number) const {
     const Contact& contact = contacts_[number];
     // The normal turns on the way.
+    // Nor is a wall's velocity the same all the way.
+    if (contact.surface != 0) return true;
     const double closing = length(leaners_[contact.a].v - velocity_of_other(contact));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
     return closing > least_strike_ && way >= contact.gap && closing > strike_of(number);

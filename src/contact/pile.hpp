@@ -185,7 +185,8 @@ private:
 
     void measure_all();
     void measure(std::uint32_t number);
-    void look_at_surface(std::uint32_t number);
+    void look_at_kinematic(std::uint32_t number);
+    [[nodiscard]] Vec3 mean_velocity(const Bounds::Wall& wall, const Int3& x) const;
     [[nodiscard]] Vec3 velocity_of_other(const Contact& contact) const {
         return contact.b == nobody ? surfaces_[contact.surface] : leaners_[contact.b].v;
     }

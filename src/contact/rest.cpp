@@ -43,7 +43,7 @@ double gap_to(const State<Real>& state, Index body, const Support& support) {
     const Motion<Real>& m = state.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
     if (support.is_wall()) {
-        return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, state.resolution);
+        return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, m.t, state.resolution);
     }
     const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code]];
     return length(separation(state, m, other, {}, {})) - radius - static_cast<double>(other.radius);
@@ -135,9 +135,13 @@ template <class Real>
 Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion) {
     const bool is_shell = state.bounds.shape() == Bounds::Shape::shell;
     const auto radius = static_cast<double>(motion.radius);
+    const Bounds::Wall& face = state.bounds.walls()[wall];
     return {.code = Support::wall_bit | wall,
             .normal = normal,
-            .bend = is_shell ? 1 / (state.bounds.shell_radius() - radius) : 0};
+            .bend = is_shell ? 1 / (state.bounds.shell_radius() - radius) : 0,
+            .is_driven = face.is_driven,
+            .velocity = Bounds::velocity(face, motion.x, {}, motion.t),
+            .acceleration = Bounds::acceleration(face, motion.t)};
 }
 
 template <class Real>

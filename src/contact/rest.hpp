@@ -68,7 +68,7 @@ template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);
 
-/// A wall, or a static body, as what a body may rest against; without friction.
+/// A wall, or a static or kinematic body, as what a body may rest against at its own time; without friction.
 template <class Real>
 Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion);
 template <class Real>

@@ -1,5 +1,8 @@
 #include "impact/prediction.hpp"
 
+#include "collision/portable_math.hpp"
+#include "collision/vibrating_plane.hpp"
+
 #include <carom/collision.hpp>
 
 namespace carom::core {
@@ -162,8 +165,9 @@ bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall
     const Motion<Real>& m = state.bodies.motion[body];
     const Vec3 v = velocity_of(m);
     const Vec3 normal = state.bounds.normal(wall, m.x, v * time, state.resolution);
+    const Vec3 relative = v - Bounds::velocity(wall, m.x, v * time, m.t + time);
     const double load = load_on(state.bodies, body);
-    return dot(v, normal) > striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
+    return dot(relative, normal) > striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
 }
 
 } // namespace
@@ -191,6 +195,18 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
 
+/// s from `time` (since the start of the step) until a gap (m) to a flat wall is closed, by a body that has `velocity` and
+/// `acceleration` away from it, the velocity relative to the wall's now.
+double time_to_flat_wall(const Bounds::Wall& wall, double gap, double velocity, double acceleration, double time,
+                         double horizon) {
+    const FaceMotion& motion = wall.motion;
+    if (!wall.is_driven || motion.amplitude == 0) return time_to_plane(gap, velocity, acceleration, horizon);
+    const double phase = wall.phase.value() + motion.frequency * time;
+    const double swing = motion.amplitude * motion.frequency * detail::cos(phase);
+    return detail::time_to_vibrating_plane(gap, velocity + swing, acceleration,
+                                           {motion.amplitude, motion.frequency, phase}, horizon);
+}
+
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const Bodies<Real>& bodies = state.bodies;
@@ -199,8 +215,10 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const Bounds::Wall& face = state.bounds.walls()[wall];
     const Vec3 a = acceleration_of(state, body);
     const Vec3 v = velocity_of(m);
+    const Vec3 u = Bounds::velocity(face, m.x, {}, m.t);
+    const Vec3 relative = v - u;
     const auto radius = static_cast<double>(m.radius);
-    const double gap = state.bounds.gap(face, m.x, {}, radius, state.resolution);
+    const double gap = state.bounds.gap(face, m.x, {}, radius, m.t, state.resolution);
     // To the end of the step, never of a window: a body that touches the face and meets it before the horizon comes to
     // rest at its own time, and in a later window that would be past.
     const double horizon = horizon_of(m.t, state.laws.kick_interval);
@@ -209,7 +227,7 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
         const Vec3 from_centre = Bounds::from_centre(face, m.x, {}, state.resolution);
         time = time_to_shell_inside(from_centre, v, a, state.bounds.shell_radius() - radius, horizon);
     } else {
-        time = time_to_plane(gap, -dot(v, face.normal), -dot(a, face.normal), horizon);
+        time = time_to_flat_wall(face, gap, -dot(relative, face.normal), -dot(a, face.normal), m.t, horizon);
     }
     if (bodies.kind[body] == Kind::piled) {
         return time <= horizon && strikes_wall(state, body, face, time) ? m.t + time : no_impact;
@@ -217,11 +235,13 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     if (gap > state.resolution.metres || time > horizon) return m.t + time;
     // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.
     const Vec3 n = state.bounds.normal(face, m.x, {}, state.resolution);
-    if (std::abs(dot(v, n)) > approach_rounding<Real>(v, {}, n)) return m.t + time;
+    if (std::abs(dot(relative, n)) > approach_rounding<Real>(v, u, n)) return m.t + time;
     const Support support = support_by_wall(state, wall, n, m);
-    const double pressing = pressure_on(state, m, bodies.slot[body], support, v).acceleration;
-    const bool pressed = std::max(pressing, dot(a, n)) > 0;
-    return pressed ? m.t : no_impact;
+    const double pressing = pressure_on(state, m, bodies.slot[body], support, relative).acceleration;
+    if (std::max(pressing, dot(a - support.acceleration, n)) > 0) return m.t;
+    // A wall that vibrates turns back.
+    const double back = time_to_flat_wall(face, gap, 0, -dot(a, face.normal), m.t, horizon);
+    return face.motion.amplitude > 0 && back > 0 ? m.t + back : no_impact;
 }
 
 template <class Real>

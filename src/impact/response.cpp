@@ -175,9 +175,10 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const Motion<Real>& m = state.bodies.motion[event.a];
     const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
     const Encounter encounter = encounter_of(state, event.a, wall);
-    Support support = support_by_wall(state, event.wall(), state.bounds.normal(wall, m.x, d, state.resolution), m);
-    support.friction = encounter.friction;
+    const Vec3 normal = state.bounds.normal(wall, m.x, d, state.resolution);
     take_part(state, event.a, event.time, occurrence.entry);
+    Support support = support_by_wall(state, event.wall(), normal, m);
+    support.friction = encounter.friction;
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
                          .face = wall.face,

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "space/motion.hpp"
+#include "space/sum.hpp"
 
 #include <carom/region.hpp>
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 namespace carom::core {
@@ -23,6 +26,11 @@ public:
         int axis = -1; ///< 0, 1, 2 if the normal is along an axis, else -1
         Surface surface{};
         std::int32_t face = 0; ///< number in the public API
+        FaceMotion motion{};
+        bool is_driven = false; ///< it moves, or its surface does
+        Sum travelled{};        ///< m towards the bodies, at the start of the step, without the vibration
+        Sum phase{};            ///< rad, at the start of the step
+        double offset = 0;      ///< m from the point towards the bodies, at the start of the step
     };
 
     Bounds() = default;
@@ -33,7 +41,34 @@ public:
     [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
     [[nodiscard]] double shell_radius() const { return shell_radius_; }
 
-    /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall.
+    /// Moves a wall in another way, from where it is. Throws Error naming the member of `where` that is refused.
+    void set_motion(std::size_t wall, const FaceMotion& motion, const std::string& where);
+    /// Throws Error naming a face that may run over another one, or leave the world, within `duration` s.
+    void check_motion(double duration, const Resolution& resolution) const;
+    /// A step of `duration` s begins.
+    void begin_step(double duration, const Resolution& resolution);
+    /// It ended after `reached` s.
+    void end_step(double reached);
+    [[nodiscard]] bool any_driven() const { return any_driven_; }
+    /// m, at least how far any wall comes towards the bodies in `duration` s.
+    [[nodiscard]] double farthest_way(double duration) const;
+    /// m from the wall's point towards the bodies, `time` s after the start of the step.
+    [[nodiscard]] static double offset_at(const Wall& wall, double time) {
+        return wall.is_driven ? driven_offset(wall, time) : wall.offset;
+    }
+    /// m/s, of the wall's surface where it touches a body at `x + d` (units + m), `time` s after the start of the step.
+    [[nodiscard]] static Vec3 velocity(const Wall& wall, const Int3& x, const Vec3& d, double time);
+    /// m/s^2
+    [[nodiscard]] static Vec3 acceleration(const Wall& wall, double time);
+    /// m/s, at least as fast as the wall ever comes towards the bodies.
+    [[nodiscard]] static double top_speed(const Wall& wall) {
+        return std::max(0.0, wall.motion.velocity) + wall.motion.amplitude * wall.motion.frequency;
+    }
+    template <class Archive>
+    void transfer_motion(Archive& archive);
+
+    /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall in the
+    /// present step.
     [[nodiscard]] bool may_touch(const Int3& x, double reach, const Resolution& resolution) const {
         // A little more than rounding can change, and the tolerance that lets touching bodies come to rest.
         const double units = reach * resolution.per_metre * (1 + 1e-9) + 4;
@@ -55,8 +90,9 @@ public:
 
     /// Unit vector from a body at `x + d` (units + m) into the face.
     [[nodiscard]] Vec3 normal(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) const;
-    /// m between the face and the surface of a body of `radius` at `x + d` (units + m); negative: through the face.
-    [[nodiscard]] double gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+    /// m between the face and the surface of a body of `radius` at `x + d` (units + m), `time` s after the start of the
+    /// step; negative: through the face.
+    [[nodiscard]] double gap(const Wall& wall, const Int3& x, const Vec3& d, double radius, double time,
                              const Resolution& resolution) const;
     /// m from the shell's centre to a body at `x + d`.
     static Vec3 from_centre(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) {
@@ -71,10 +107,15 @@ private:
     void add_planes(const std::vector<Plane>& planes, const Resolution& resolution, const Int3& origin);
     void add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin);
 
-    void add_wall(const Wall& wall);
+    void add_wall(Wall wall, const FaceMotion& motion);
+    void narrow(const Wall& wall, double way, const Resolution& resolution);
+    static double driven_offset(const Wall& wall, double time);
+    static double rest_offset(const Wall& wall);
 
     Shape shape_ = Shape::flat;
     bool only_axis_walls_ = true;
+    bool any_driven_ = false;
+    bool is_box_ = false;
     Int3 low_{lowest, lowest, lowest};     ///< units; no axis-aligned wall beyond
     Int3 high_{highest, highest, highest}; ///< units
     std::vector<Wall> walls_;
@@ -83,15 +124,23 @@ private:
     double shell_radius_ = 0;
 };
 
-inline double Bounds::gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+inline double Bounds::gap(const Wall& wall, const Int3& x, const Vec3& d, double radius, double time,
                           const Resolution& resolution) const {
     if (shape_ == Shape::shell) return (shell_radius_ - radius) - length(from_centre(wall, x, d, resolution));
     if (wall.axis >= 0) {
         const double depth = metres_between(component(x, wall.axis), component(wall.point, wall.axis), resolution) -
                              component(d, wall.axis);
-        return (component(wall.normal, wall.axis) > 0 ? depth : -depth) - radius;
+        return (component(wall.normal, wall.axis) > 0 ? depth : -depth) - radius - offset_at(wall, time);
     }
-    return -dot(wall.normal, to_metres(x - wall.point, resolution) + d) - radius;
+    return -dot(wall.normal, to_metres(x - wall.point, resolution) + d) - radius - offset_at(wall, time);
+}
+
+template <class Archive>
+void Bounds::transfer_motion(Archive& archive) {
+    for (Wall& wall : walls_) {
+        archive(wall.travelled, wall.phase);
+        wall.offset = rest_offset(wall);
+    }
 }
 
 } // namespace carom::core

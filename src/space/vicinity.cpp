@@ -629,14 +629,16 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
     if (state_.bounds.walls().empty() || is_prescribed(state_.bodies.kind[body]) || earliest >= windows_) return;
-    if (is_told(body)) return;
+    // Contacts tell of walls that rest.
+    if (is_told(body) && !state_.bounds.any_driven()) return;
     if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);
         return;
     }
     const Motion<Real>& m = state_.bodies.motion[body];
     const double end = epoch_ + windows_ * length_ * (1 + slack);
-    const double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    if (state_.bounds.any_driven()) reach += state_.bounds.farthest_way(end);
     if (!state_.bounds.may_touch(m.x, reach, state_.resolution)) return;
     const std::uint32_t window = window_of(exact_relative(m.t) + first_wall_contact(m), earliest);
     if (window < windows_) calendar_.add_wall(part, window, body);
@@ -657,9 +659,11 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
     const double margin = wall_margin(m);
     double first = infinite;
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
-        const double gap = state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) - margin;
+        const double gap = state_.bounds.gap(wall, m.x, {}, radius, m.t, state_.resolution) - margin;
         const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;
-        const double speed = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
+        // A wall's vibration comes and goes: at most as if it always came.
+        const double own = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
+        const double speed = own + Bounds::top_speed(wall);
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
     }

@@ -64,6 +64,8 @@ public:
     void set_drag(const Drag& drag);
     void set_attractors(std::span<const Attractor> attractors);
     [[nodiscard]] std::span<const Attractor> attractors() const noexcept { return attractors_; }
+    void set_face_motion(std::int32_t face, const FaceMotion& motion);
+    [[nodiscard]] Region region() const;
     void set_origin(const std::array<std::int64_t, 3>& origin);
     void set_recording(bool record_impacts, double least_recorded_impulse);
     void set_work_cap(std::uint64_t work_cap) { setting_.options.work_cap = work_cap; }
@@ -161,6 +163,7 @@ private:
     [[nodiscard]] bool holds_are_sound() const;
     [[nodiscard]] bool contacts_are_sound() const;
     [[nodiscard]] bool attractors_are_sound() const;
+    [[nodiscard]] bool walls_are_sound() const;
 
     Setting setting_;
     std::uint16_t world_tag_;

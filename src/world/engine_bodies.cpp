@@ -153,7 +153,7 @@ template <class Real>
 void Engine<Real>::check_inside(const Motion<Real>& motion, std::size_t place) const {
     const auto radius = static_cast<double>(motion.radius);
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
-        const double gap = state_.bounds.gap(wall, motion.x, {}, radius, setting_.resolution);
+        const double gap = state_.bounds.gap(wall, motion.x, {}, radius, 0, setting_.resolution);
         if (gap >= -touching_tolerance(state_, 2 * radius)) continue;
         throw Error(ErrorCode::overlap, "position",
                     "reaches " + shown(-gap) + " m through face " + std::to_string(wall.face) + " of the region",

@@ -104,6 +104,7 @@ const StepReport& Engine<Real>::step(double dt) {
     state_.laws.fields = placed_fields();
     const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
+    state_.bounds.check_motion(dt, setting_.resolution);
     begin_step(dt);
     report_.seconds.cells += watch.lap();
     first_kick(0.5 * dt);
@@ -139,6 +140,7 @@ template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
+    state_.bounds.begin_step(dt, setting_.resolution);
     clear_for_reuse(impacts_);
     outcome_ = {};
     outcome_.least_impulse = setting_.options.least_recorded_impulse;
@@ -326,6 +328,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     const double start = clock_.seconds();
     if (reached > 0) clock_.advance(reached);
     islands_.vicinity().end_step(reached);
+    state_.bounds.end_step(reached);
     last_start_ = start;
     last_step_ = reached;
     if (state_.laws.gravity != Vec3{}) {

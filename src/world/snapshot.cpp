@@ -30,13 +30,18 @@ void transfer(Archive& archive, Surface& surface) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, FaceMotion& m) {
+    archive(m.velocity, m.amplitude, m.frequency, m.phase, m.surface_velocity);
+}
+
+template <class Archive>
 void transfer(Archive& archive, Face& face) {
-    archive(face.kind, face.surface);
+    archive(face.kind, face.surface, face.motion);
 }
 
 template <class Archive>
 void transfer(Archive& archive, Plane& plane) {
-    archive(plane.point, plane.normal, plane.surface);
+    archive(plane.point, plane.normal, plane.surface, plane.motion);
 }
 
 template <class Archive>
@@ -242,6 +247,7 @@ void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
             b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
             last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
+    state_.bounds.transfer_motion(archive);
 }
 
 template <class Real>
@@ -287,7 +293,8 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
 template <class Real>
 void Engine<Real>::check_loaded() const {
     const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && flights_are_sound() &&
-                       holds_are_sound() && contacts_are_sound() && attractors_are_sound() && clock_.is_sound() &&
+                       holds_are_sound() && contacts_are_sound() && attractors_are_sound() && walls_are_sound() &&
+                       clock_.is_sound() &&
                        last_start_ >= 0 && last_step_ >= 0;
     if (!sound) refuse("contradicts itself");
 }
@@ -395,6 +402,14 @@ bool Engine<Real>::attractors_are_sound() const {
 }
 
 template <class Real>
+bool Engine<Real>::walls_are_sound() const {
+    const auto& walls = state_.bounds.walls();
+    return std::all_of(walls.begin(), walls.end(), [](const Bounds::Wall& wall) {
+        return std::isfinite(wall.offset) && std::isfinite(wall.phase.value());
+    });
+}
+
+template <class Real>
 std::uint64_t Engine<Real>::hash() const {
     Hasher hasher;
     hasher(clock_.seconds());
@@ -412,6 +427,9 @@ std::uint64_t Engine<Real>::hash() const {
     for (const ContactForce& c : state_.bodies.contacts) {
         hasher(c.a, c.code, c.normal);
         hasher.vector(c.friction);
+    }
+    for (const Bounds::Wall& wall : state_.bounds.walls()) {
+        if (wall.is_driven || wall.offset != 0) hasher(wall.offset, wall.phase.value());
     }
     for (const auto& [slot, flight] : state_.bodies.recent_flights) {
         hasher(slot, flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);

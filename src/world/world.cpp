@@ -206,6 +206,14 @@ std::span<const Attractor> World::attractors() const noexcept {
     return std::visit([](const auto& engine) { return engine.attractors(); }, impl_->engine);
 }
 
+void World::set_face_motion(std::int32_t face, const FaceMotion& motion) {
+    impl_->pass([&](auto& engine) { engine.set_face_motion(face, motion); });
+}
+
+Region World::region() const {
+    return impl_->pass([](const auto& engine) { return engine.region(); });
+}
+
 void World::set_origin(const std::array<std::int64_t, 3>& origin) {
     impl_->pass([&](auto& engine) { engine.set_origin(origin); });
 }

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -62,11 +63,38 @@ carom::Region random_region(Random& random) {
     }
 }
 
+carom::FaceMotion random_motion(Random& random) {
+    carom::FaceMotion motion;
+    if (random.chance(2)) motion.velocity = random.within(-0.5, 0.5);
+    if (random.chance(2)) {
+        motion.amplitude = random.within(0, 0.25);
+        motion.frequency = random.within(0, 60);
+        motion.phase = random.within(-4, 4);
+    }
+    return motion;
+}
+
+/// Lets the faces of a region move.
+void drive(carom::Region& region, Random& random) {
+    if (auto* box = std::get_if<Box>(&region)) {
+        for (carom::Face& face : box->faces) {
+            if (face.kind == carom::FaceKind::reflecting) face.motion = random_motion(random);
+        }
+        if (box->faces[4].kind == carom::FaceKind::reflecting) {
+            box->faces[4].motion.surface_velocity = {random.within(-2, 2), random.within(-2, 2), 0};
+        }
+    }
+    if (auto* planes = std::get_if<std::vector<carom::Plane>>(&region)) {
+        for (carom::Plane& plane : *planes) plane.motion = random_motion(random);
+    }
+}
+
 /// `is_driven`: with what moves as prescribed.
 World random_world(unsigned seed, bool is_driven = false) {
     Random random(seed);
     WorldOptions options;
     options.region = random_region(random);
+    if (is_driven) drive(options.region, random);
     options.precision = random.chance(2) ? carom::Precision::single_precision : carom::Precision::double_precision;
     if (random.chance(2)) options.gravity = random.vector(10);
     if (random.chance(4)) options.drag = {.linear = 0.1, .quadratic = 0.05};
@@ -104,7 +132,7 @@ void meddle(World& world, unsigned seed) {
     const std::vector<BodyId> ids = world.ids();
     const BodyId id = ids[random.below(static_cast<std::uint32_t>(ids.size()))];
     const bool is_static = std::isinf(world.get(id).mass);
-    switch (random.below(6)) {
+    switch (random.below(7)) {
     case 0:
         if (!is_static) world.change_velocities({{id}}, {{random.vector(30)}});
         break;
@@ -125,6 +153,13 @@ void meddle(World& world, unsigned seed) {
         }
         break;
     }
+    case 4:
+        try {
+            world.set_face_motion(static_cast<std::int32_t>(random.below(6)), random_motion(random));
+        } catch (const carom::Error& error) {
+            ASSERT_EQ(error.field(), "face") << error.what();
+        }
+        break;
     default:
         break;
     }
