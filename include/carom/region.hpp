@@ -18,14 +18,14 @@ struct Surface {
     std::optional<double> friction{};    ///< Coulomb's mu >= 0
 };
 
-/// How a face of a Box, or a Plane, moves from where the region has it: by `velocity t + amplitude (sin(frequency t +
-/// phase) - sin(phase))` along its normal, towards the bodies.
+/// How a face of a Box, or a Plane, moves from where the region has it: along its normal, towards the bodies, by
+/// `velocity t + amplitude (sin(angular_frequency t + phase) - sin(phase))`.
 struct FaceMotion {
-    double velocity = 0;     ///< m/s, of a piston; positive towards the bodies
-    double amplitude = 0;    ///< m, >= 0, of a shaker
-    double frequency = 0;    ///< rad/s, >= 0: 2 pi times the oscillations a second
-    double phase = 0;        ///< rad, when the motion begins
-    Vec3 surface_velocity{}; ///< m/s along the face, of a conveyor belt: the face itself stays where it is
+    double velocity = 0;          ///< m/s, of a piston; positive towards the bodies
+    double amplitude = 0;         ///< m, >= 0, of a shaker
+    double angular_frequency = 0; ///< rad/s, >= 0: 2 pi times the oscillations a second
+    double phase = 0;             ///< rad, when the motion begins
+    Vec3 surface_velocity{};      ///< m/s along the face, of a conveyor belt: the face itself stays where it is
 
     friend bool operator==(const FaceMotion&, const FaceMotion&) = default;
 };

@@ -156,7 +156,8 @@ double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path
     const double time = predict_in_order(state, a, b, now, until);
     if (time > until) return no_impact;
     const Meeting m = meeting_at(state, a, b, time);
-    return dot(m.v_a - m.v_b, contact_normal(m.delta, Vec3{})) > strike ? time : no_impact;
+    const Vec3 n = contact_normal(m.delta, Vec3{});
+    return dot(m.v_a - m.v_b, n) > std::max(strike, approach_rounding<Real>(m.v_a, m.v_b, n)) ? time : no_impact;
 }
 
 /// The same at a wall, for a time of impact `time` s after the body's own.
@@ -165,9 +166,10 @@ bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall
     const Motion<Real>& m = state.bodies.motion[body];
     const Vec3 v = velocity_of(m);
     const Vec3 normal = state.bounds.normal(wall, m.x, v * time, state.resolution);
-    const Vec3 relative = v - Bounds::velocity(wall, m.x, v * time, m.t + time);
+    const Vec3 u = Bounds::velocity(wall, m.x, v * time, m.t + time);
     const double load = load_on(state.bodies, body);
-    return dot(relative, normal) > striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
+    const double strike = striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
+    return dot(v - u, normal) > std::max(strike, approach_rounding<Real>(v, u, normal));
 }
 
 } // namespace
@@ -201,10 +203,10 @@ double time_to_flat_wall(const Bounds::Wall& wall, double gap, double velocity, 
                          double horizon) {
     const FaceMotion& motion = wall.motion;
     if (!wall.is_driven || motion.amplitude == 0) return time_to_plane(gap, velocity, acceleration, horizon);
-    const double phase = wall.phase.value() + motion.frequency * time;
-    const double swing = motion.amplitude * motion.frequency * detail::cos(phase);
+    const double phase = wall.phase.value() + motion.angular_frequency * time;
+    const double swing = motion.amplitude * motion.angular_frequency * detail::cos(phase);
     return detail::time_to_vibrating_plane(gap, velocity + swing, acceleration,
-                                           {motion.amplitude, motion.frequency, phase}, horizon);
+                                           {motion.amplitude, motion.angular_frequency, phase}, horizon);
 }
 
 template <class Real>

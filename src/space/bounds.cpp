@@ -141,7 +141,7 @@ void Bounds::set_motion(std::size_t wall, const FaceMotion& motion, const std::s
     const auto face = static_cast<std::size_t>(w.face);
     check_finite(motion.velocity, where + ".velocity", face);
     check_not_negative(motion.amplitude, where + ".amplitude", face);
-    check_not_negative(motion.frequency, where + ".frequency", face);
+    check_not_negative(motion.angular_frequency, where + ".angular_frequency", face);
     check_finite(motion.phase, where + ".phase", face);
     check_finite(motion.surface_velocity, where + ".surface_velocity", face);
     constexpr double along = 1e-6;
@@ -151,7 +151,7 @@ void Bounds::set_motion(std::size_t wall, const FaceMotion& motion, const std::s
     }
     w.motion = motion;
     w.motion.surface_velocity -= w.normal * out_of_face;
-    w.is_driven = motion.velocity != 0 || motion.amplitude * motion.frequency != 0 || motion.surface_velocity != Vec3{};
+    w.is_driven = motion.velocity != 0 || motion.amplitude * motion.angular_frequency != 0 || motion.surface_velocity != Vec3{};
     w.phase = {motion.phase};
     w.travelled = {w.offset - motion.amplitude * detail::sin(motion.phase)};
     w.offset = rest_offset(w);
@@ -167,7 +167,7 @@ double Bounds::driven_offset(const Wall& wall, double time) {
     const double way = wall.offset + motion.velocity * time;
     if (motion.amplitude == 0) return way;
     const double phase = wall.phase.value();
-    return way + motion.amplitude * (detail::sin(phase + motion.frequency * time) - detail::sin(phase));
+    return way + motion.amplitude * (detail::sin(phase + motion.angular_frequency * time) - detail::sin(phase));
 }
 
 Vec3 Bounds::velocity(const Wall& wall, const Int3& /*x*/, const Vec3& /*d*/, double time) {
@@ -175,7 +175,7 @@ Vec3 Bounds::velocity(const Wall& wall, const Int3& /*x*/, const Vec3& /*d*/, do
     const FaceMotion& motion = wall.motion;
     double speed = motion.velocity;
     if (motion.amplitude != 0) {
-        speed += motion.amplitude * motion.frequency * detail::cos(wall.phase.value() + motion.frequency * time);
+        speed += motion.amplitude * motion.angular_frequency * detail::cos(wall.phase.value() + motion.angular_frequency * time);
     }
     return motion.surface_velocity - wall.normal * speed;
 }
@@ -183,15 +183,15 @@ Vec3 Bounds::velocity(const Wall& wall, const Int3& /*x*/, const Vec3& /*d*/, do
 Vec3 Bounds::acceleration(const Wall& wall, double time) {
     const FaceMotion& motion = wall.motion;
     if (!wall.is_driven || motion.amplitude == 0) return {};
-    const double most = motion.amplitude * motion.frequency * motion.frequency;
-    return wall.normal * (most * detail::sin(wall.phase.value() + motion.frequency * time));
+    const double most = motion.amplitude * motion.angular_frequency * motion.angular_frequency;
+    return wall.normal * (most * detail::sin(wall.phase.value() + motion.angular_frequency * time));
 }
 
 double Bounds::farthest_way(double duration) const {
     double farthest = 0;
     for (const Wall& wall : walls_) {
         const FaceMotion& motion = wall.motion;
-        const double swing = motion.amplitude * std::min(2.0, motion.frequency * duration);
+        const double swing = motion.amplitude * std::min(2.0, motion.angular_frequency * duration);
         farthest = std::max(farthest, std::max(0.0, motion.velocity * duration) + swing);
     }
     return farthest;
@@ -226,7 +226,7 @@ void Bounds::begin_step(double duration, const Resolution& resolution) {
     high_ = {highest, highest, highest};
     for (const Wall& wall : walls_) {
         const FaceMotion& motion = wall.motion;
-        const double swing = motion.amplitude * std::min(2.0, motion.frequency * duration);
+        const double swing = motion.amplitude * std::min(2.0, motion.angular_frequency * duration);
         if (wall.axis >= 0) narrow(wall, wall.offset + std::max(0.0, motion.velocity * duration) + swing, resolution);
     }
 }
@@ -246,7 +246,7 @@ void Bounds::end_step(double reached) {
     for (Wall& wall : walls_) {
         if (!wall.is_driven) continue;
         wall.travelled.add(wall.motion.velocity * reached);
-        wall.phase.add(wall.motion.frequency * reached);
+        wall.phase.add(wall.motion.angular_frequency * reached);
         wall.offset = rest_offset(wall);
     }
 }

@@ -62,7 +62,7 @@ public:
     [[nodiscard]] static Vec3 acceleration(const Wall& wall, double time);
     /// m/s, at least as fast as the wall ever comes towards the bodies.
     [[nodiscard]] static double top_speed(const Wall& wall) {
-        return std::max(0.0, wall.motion.velocity) + wall.motion.amplitude * wall.motion.frequency;
+        return std::max(0.0, wall.motion.velocity) + wall.motion.amplitude * wall.motion.angular_frequency;
     }
     template <class Archive>
     void transfer_motion(Archive& archive);

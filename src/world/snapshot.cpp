@@ -31,7 +31,7 @@ void transfer(Archive& archive, Surface& surface) {
 
 template <class Archive>
 void transfer(Archive& archive, FaceMotion& m) {
-    archive(m.velocity, m.amplitude, m.frequency, m.phase, m.surface_velocity);
+    archive(m.velocity, m.amplitude, m.angular_frequency, m.phase, m.surface_velocity);
 }
 
 template <class Archive>

@@ -73,6 +73,17 @@ class Scenes(CliTest):
         self.assertEqual((summary["contacts"], summary["kinetic_final"]), (400, 0))
         self.assertLess(abs(summary["energy_drift"]), 1e-8)
 
+    def test_shaker(self):
+        # What comes down on the floor drives others into each other for a moment.
+        summary, rows = self.whole("shaker", max_overlap=0.05)
+        self.assertLess(abs(summary["energy_drift"]), 1e-9)
+        # The bed is thrown up and caught in each period: its momentum turns round as often.
+        late = [row["momentum_z"] for row in rows if row["time"] > 1]
+        turns = sum(before < 0 <= after for before, after in zip(late, late[1:]))
+        self.assertAlmostEqual(turns, 3 * 33 / (2 * math.pi), delta=2)
+        self.assertGreater(max(row["contacts"] for row in rows), 300)
+        self.assertLess(min(row["contacts"] for row in rows if row["time"] > 1), 30)
+
     def test_heap(self):
         # What falls from five metres drives others into each other for a moment.
         summary, rows = self.whole("heap", max_overlap=0.05)

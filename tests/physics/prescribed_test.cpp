@@ -221,14 +221,14 @@ TEST(Piston, CompressesAGasAdiabatically) {
 
 long double plate_gap(const carom::FaceMotion& plate, long double z, long double v, long double from, long double t) {
     const long double since = t - from;
-    return z + v * since - 0.5L * g * since * since - plate.amplitude * std::sin(plate.frequency * t);
+    return z + v * since - 0.5L * g * since * since - plate.amplitude * std::sin(plate.angular_frequency * t);
 }
 
 /// A ball on a plate that vibrates: from impact to impact, against a search in long double.
 TEST(Shaker, BallMeetsThePlateAtTheExactTimes) {
     for (const double strength : {1.3, 3.0, 10.0}) {
         carom::FaceMotion plate{.amplitude = 0.002};
-        plate.frequency = std::sqrt(strength * g / plate.amplitude);
+        plate.angular_frequency = std::sqrt(strength * g / plate.amplitude);
         carom::Box box = open_box(4);
         box.faces[4].motion = plate;
         World world({.gravity = {0, 0, -g}, .region = box});
@@ -253,14 +253,14 @@ TEST(Shaker, BallMeetsThePlateAtTheExactTimes) {
                 (plate_gap(plate, z, v, from, middle) > 0 ? above : t) = middle;
             }
             const long double speed = v - g * (t - from);
-            const long double plate_speed = plate.amplitude * plate.frequency * std::cos(plate.frequency * t);
+            const long double plate_speed = plate.amplitude * plate.angular_frequency * std::cos(plate.angular_frequency * t);
             // Positions are rounded to 2^-41 m at each impact and step: they come that much later or earlier.
             const double approach = static_cast<double>(plate_speed - speed);
             worst = std::max(worst, std::abs(static_cast<double>(impact.time - t)) * approach);
             ASSERT_NEAR(impact.approach_speed, approach, 1e-8 + 1e-8 / approach);
             // The next flight starts from what the engine has.
             from = impact.time;
-            z = plate.amplitude * std::sin(plate.frequency * from);
+            z = plate.amplitude * std::sin(plate.angular_frequency * from);
             const double flown = world.time() - impact.time;
             v = world.get(ball).velocity.z + static_cast<long double>(g) * flown;
             ++impacts;
@@ -280,7 +280,7 @@ TEST(Shaker, KeepsWhatItDoesNotThrow) {
     for (const double strength : {0.7, 1.5}) {
         carom::Box box = open_box(4);
         box.faces[4].surface.restitution = 0;
-        box.faces[4].motion = {.amplitude = 0.01, .frequency = std::sqrt(strength * g / 0.01)};
+        box.faces[4].motion = {.amplitude = 0.01, .angular_frequency = std::sqrt(strength * g / 0.01)};
         World world({.gravity = {0, 0, -g}, .region = box});
         const BodyId ball = world.add({.position = {2, 2, 0.5}, .restitution = 0});
         run(world, 1);
@@ -382,7 +382,7 @@ TEST(Belt, TakesAlongWhatLiesOnIt) {
 
 TEST(Face, GoesOnFromWhereItIsAndDoesNotDrift) {
     carom::Box box{{0, 0, 0}, {8, 8, 8}};
-    box.faces[4].motion = {.velocity = 1e-3, .amplitude = 0.25, .frequency = 10, .phase = 1};
+    box.faces[4].motion = {.velocity = 1e-3, .amplitude = 0.25, .angular_frequency = 10, .phase = 1};
     World world({.region = box});
     const auto floor_of = [&world] { return std::get<carom::Box>(world.region()).min.z; };
     constexpr double dt = 1e-3;
@@ -390,7 +390,7 @@ TEST(Face, GoesOnFromWhereItIsAndDoesNotDrift) {
     for (int k = 0; k < steps; ++k) world.step(dt);
     const double after = 1e-3 * dt * steps + 0.25 * (std::sin(10 * dt * steps + 1) - std::sin(1.0));
     EXPECT_NEAR(floor_of(), after, 1e-12);
-    world.set_face_motion(4, {.amplitude = 0.125, .frequency = 3, .phase = 2});
+    world.set_face_motion(4, {.amplitude = 0.125, .angular_frequency = 3, .phase = 2});
     EXPECT_NEAR(floor_of(), after, 1e-12);
     world.step(0.5);
     EXPECT_NEAR(floor_of(), after + 0.125 * (std::sin(3.5) - std::sin(2.0)), 1e-12);
@@ -404,7 +404,7 @@ TEST(Face, GoesOnFromWhereItIsAndDoesNotDrift) {
 
 TEST(Face, GoesOnAfterASnapshot) {
     carom::Box box = open_box(6);
-    box.faces[4].motion = {.amplitude = 0.05, .frequency = 20};
+    box.faces[4].motion = {.amplitude = 0.05, .angular_frequency = 20};
     box.faces[0].motion.velocity = 0.125;
     World world({.gravity = {0, 0, -g}, .region = box});
     for (int k = 0; k < 8; ++k) {
@@ -443,7 +443,7 @@ TEST(Face, RefusesWhatIsNone) {
     refuses("face", 2, {});
     refuses("motion.velocity", 0, {.velocity = nan});
     refuses("motion.amplitude", 0, {.amplitude = -1});
-    refuses("motion.frequency", 0, {.frequency = -1});
+    refuses("motion.angular_frequency", 0, {.angular_frequency = -1});
     refuses("motion.phase", 0, {.phase = nan});
     refuses("motion.surface_velocity", 0, {.surface_velocity = {1, 0, 0}});
     box.faces[2].motion.velocity = 1;

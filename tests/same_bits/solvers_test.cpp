@@ -68,7 +68,7 @@ carom::FaceMotion random_motion(Random& random) {
     if (random.chance(2)) motion.velocity = random.within(-0.5, 0.5);
     if (random.chance(2)) {
         motion.amplitude = random.within(0, 0.25);
-        motion.frequency = random.within(0, 60);
+        motion.angular_frequency = random.within(0, 60);
         motion.phase = random.within(-4, 4);
     }
     return motion;
