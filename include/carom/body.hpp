@@ -38,6 +38,7 @@ struct Body {
     Vec3 velocity{};             ///< m/s
     double mass = 1;             ///< kg, > 0; infinite_mass makes the body static, or kinematic if it has a velocity
     double radius = 0.5;         ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
+    double growth = 0;           ///< m/s, of the radius; a step in which a radius would become negative is refused
     double restitution = 1;      ///< e in [0, 1]; two bodies use the larger
     double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
     std::uint32_t material = 0;  ///< key into the world's material rules; has no other effect
@@ -51,6 +52,7 @@ struct ConstBodyColumns {
     std::span<const Vec3> velocity{};
     std::span<const double> mass{};
     std::span<const double> radius{};
+    std::span<const double> growth{};
     std::span<const double> restitution{};
     std::span<const double> friction{};
     std::span<const std::uint32_t> material{};
@@ -63,6 +65,7 @@ struct BodyColumns {
     std::span<Vec3> velocity{};
     std::span<double> mass{};
     std::span<double> radius{};
+    std::span<double> growth{};
     std::span<double> restitution{};
     std::span<double> friction{};
     std::span<std::uint32_t> material{};

@@ -157,7 +157,8 @@ void Pile<Real>::start_list(double from) {
     listed_until_ = from + list_life;
     // In that time, pairs that are no impacts approach by no more than this.
     const double gravity = length(state_.laws.gravity);
-    margin_ = (2 * told_speed() + gravity * list_life) * list_life + 4 * state_.resolution.metres;
+    margin_ = (2 * told_speed() + gravity * list_life) * list_life + 4 * state_.resolution.metres +
+              2 * state_.bodies.top_growth * list_life;
     find_contacts();
     assign_cells();
     sort_contacts();
@@ -313,13 +314,27 @@ void Pile<Real>::add_pair(std::vector<Found>& found, Index a, Index b) const {
                       .touching = touching,
                       .mass = reduced_mass(a, b),
                       .friction = encounter.friction,
-                      .surface = bodies.kind[b] == Kind::kinematic ? 1U : 0U}});
+                      .surface = is_static && (bodies.kind[b] == Kind::kinematic || grows(a, b)) ? 1U : 0U}});
 }
 
 template <class Real>
 double Pile<Real>::reduced_mass(Index a, Index b) const {
     const auto inverse = [this](Index i) { return 1 / static_cast<double>(state_.bodies.mass[i]); };
     return 1 / (inverse(a) + inverse(b));
+}
+
+/// Whether one of two bodies grows.
+template <class Real>
+bool Pile<Real>::grows(Index a, Index b) const {
+    return growth_of(state_.bodies, a) != 0 || growth_of(state_.bodies, b) != 0;
+}
+
+/// m, at which the bodies of a contact touch now.
+template <class Real>
+double Pile<Real>::distance_now(std::uint32_t number) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    return radius_at(bodies, leaners_[contacts_[number].a].body, now_) +
+           radius_at(bodies, bodies.slots[names_[number].code], now_);
 }
 
 template <class Real>
@@ -337,7 +352,7 @@ void Pile<Real>::add_walls(std::vector<Found>& found, std::uint32_t a) const {
              {.a = a,
               .mass = static_cast<double>(state_.bodies.mass[body]),
               .friction = encounter.friction,
-              .surface = wall.is_driven ? 1U : 0U}});
+              .surface = wall.is_driven || grows(body, body) ? 1U : 0U}});
     }
 }
 
@@ -478,15 +493,18 @@ void Pile<Real>::measure(std::uint32_t number) {
         const Motion<Real>& m = state_.bodies.motion[a.body];
         const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
         contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        contact.gap = state_.bounds.gap(wall, m.x, {}, static_cast<double>(m.radius), now_, state_.resolution);
-        if (contact.surface != 0) surfaces_[contact.surface] = mean_velocity(wall, m.x);
+        const double growth = growth_of(state_.bodies, a.body);
+        contact.gap =
+            state_.bounds.gap(wall, m.x, {}, radius_at(state_.bodies, a.body, now_), now_, state_.resolution);
+        if (contact.surface != 0) surfaces_[contact.surface] = mean_velocity(wall, m.x) - contact.normal * growth;
     } else if (contact.surface != 0) {
         look_at_kinematic(number);
     } else {
         const Vec3 delta = contact.apart + (contact.b == nobody ? -a.moved : leaners_[contact.b].moved - a.moved);
         const double distance = length(delta);
         contact.normal = distance > 0 ? delta / distance : contact_normal(delta, Vec3{});
-        contact.gap = distance - contact.touching;
+        const bool one_grows = !state_.bodies.growth.empty();
+        contact.gap = distance - (one_grows ? distance_now(number) : contact.touching);
     }
     const double approach = approach_of(contact);
     contact.is_open = contact.gap > 0 && approach > least_strike_ && approach > strike_of(number);
@@ -500,12 +518,16 @@ void Pile<Real>::measure(std::uint32_t number) {
 template <class Real>
 void Pile<Real>::look_at_kinematic(std::uint32_t number) {
     Contact& contact = contacts_[number];
-    const Motion<Real>& m = state_.bodies.motion[leaners_[contact.a].body];
-    const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[names_[number].code]];
+    const Bodies<Real>& bodies = state_.bodies;
+    const Index a = leaners_[contact.a].body;
+    const Index b = bodies.slots[names_[number].code];
+    const Motion<Real>& m = bodies.motion[a];
+    const Motion<Real>& other = bodies.motion[b];
     const Vec3 delta = separation(state_, m, other, {}, velocity_of(other) * (now_ - other.t));
     contact.normal = contact_normal(delta, Vec3{});
-    contact.gap = length(delta) - contact.touching;
-    surfaces_[contact.surface] = velocity_of(other);
+    contact.gap = length(delta) - (radius_at(bodies, a, now_) + radius_at(bodies, b, now_));
+    const double growth = growth_of(bodies, a) + growth_of(bodies, b);
+    surfaces_[contact.surface] = velocity_of(other) - contact.normal * growth;
 }
 
 /// m/s, of a wall at a body, over the next piece: the way there is exact, and no swinging wall is taken for another.

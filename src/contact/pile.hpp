@@ -176,6 +176,8 @@ private:
     void add_pair(std::vector<Found>& found, Index a, Index b) const;
     void add_walls(std::vector<Found>& found, std::uint32_t a) const;
     [[nodiscard]] double reduced_mass(Index a, Index b) const;
+    [[nodiscard]] bool grows(Index a, Index b) const;
+    [[nodiscard]] double distance_now(std::uint32_t number) const;
     void assign_cells();
     [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
     [[nodiscard]] Order order_of(std::uint32_t number) const;

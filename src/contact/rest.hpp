@@ -68,11 +68,14 @@ template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);
 
-/// A wall, or a static or kinematic body, as what a body may rest against at its own time; without friction.
+/// A wall, or a static or kinematic body, as what a body may rest against at its own time; without friction. What grows
+/// (m/s, the two together) drives the surface on.
 template <class Real>
-Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion);
+Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion,
+                        double growth);
 template <class Real>
-Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed);
+Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed,
+                        double growth);
 
 /// Puts a body, standing where it touches the support, to rest against it. `remaining`: s to the end of the step.
 template <class Real>

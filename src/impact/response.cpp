@@ -177,7 +177,7 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const Encounter encounter = encounter_of(state, event.a, wall);
     const Vec3 normal = state.bounds.normal(wall, m.x, d, state.resolution);
     take_part(state, event.a, event.time, occurrence.entry);
-    Support support = support_by_wall(state, event.wall(), normal, m);
+    Support support = support_by_wall(state, event.wall(), normal, m, growth_of(state.bodies, event.a));
     support.friction = encounter.friction;
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
@@ -320,7 +320,8 @@ bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& mee
     const Vec3 pull = pull_on(state, b) - pull_on(state, a);
     const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);
     const double speed = resting_speed(e, pressing, state.laws.rest_time);
-    return speed > 0 && dot(meeting.v_a - meeting.v_b, n) <= speed;
+    const double growth = growth_of(bodies, a) + growth_of(bodies, b);
+    return speed > 0 && dot(meeting.v_a - meeting.v_b, n) + growth <= speed;
 }
 
 /// Two bodies that both move.
@@ -334,7 +335,10 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
         occurrence.piles_up = true;
         return;
     }
-    Vec3 v_a = meeting.v_a;
+    // What grows drives the surfaces on: Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990).
+    const double growth = growth_of(state.bodies, a) + growth_of(state.bodies, b);
+    const Vec3 own_growth = impact.normal * growth;
+    Vec3 v_a = meeting.v_a + own_growth;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
@@ -342,9 +346,10 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     Haste haste{.lasts = haste_a.lasts || haste_b.lasts,
                 .collapses = haste_a.collapses || haste_b.collapses,
                 .jams = haste_a.jams || haste_b.jams};
+    occurrence.is_crushed = haste.jams && growth != 0;
     const bool one_lies = state.bodies.kind[a] == Kind::held || state.bodies.kind[b] == Kind::held;
     const bool is_contact = haste.collapses || (haste.lasts && approach < contact_speed(state.laws));
-    if (one_lies && is_contact && stays_on_supports(state, a, -impact.normal) &&
+    if (one_lies && is_contact && growth == 0 && stays_on_supports(state, a, -impact.normal) &&
         stays_on_supports(state, b, impact.normal)) {
         // With the blow passed on, it is no collapse of bodies that are pressed together, only a contact; nor do they
         // fill the room between faces.
@@ -359,8 +364,9 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     release(state.bodies, b);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
-    set_velocity(state, a, v_a);
+    set_velocity(state, a, v_a - own_growth);
     set_velocity(state, b, v_b);
+    occurrence.entry.prescribed_work += response.impulse * growth;
     write_down(response, occurrence);
 }
 
@@ -369,7 +375,8 @@ template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
     const Encounter encounter = encounter_of(state, body, fixed);
-    Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed]);
+    const double growth = growth_of(bodies, body) + growth_of(bodies, fixed);
+    Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed], growth);
     support.friction = encounter.friction;
     meet_support(state, body, support, encounter, occurrence);
 }

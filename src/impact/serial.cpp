@@ -67,8 +67,9 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
     for (Index i = 0; i < bodies.size(); ++i) {
         const Motion<Real>& m = bodies.motion[i];
         const Vec3 a = acceleration_of(state_, i);
-        covers_[i] = swept_ball(ticks_, m, a, from, to, slack_);
-        if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
+        const double growth = bodies.top_growth * to;
+        covers_[i] = swept_ball(ticks_, m, a, from, to, slack_ + growth);
+        if (state_.bounds.may_touch(m.x, reach_of(m, a, to) + growth, state_.resolution)) near_walls_.push_back(i);
     }
     neighbours_.build(
         *loops_, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
@@ -152,8 +153,9 @@ bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     if (!stays_in_world(state_, body, state_.laws.kick_interval - now)) return false;
     const Vec3 a = acceleration_of(state_, body);
     const Motion<Real>& m = state_.bodies.motion[body];
-    if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to))) return true;
-    neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_));
+    const double growth = state_.bodies.top_growth * to;
+    if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to, growth))) return true;
+    neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_ + growth));
     neighbours_.link_all(*loops_, {&body, 1}, [this](Index other) { return !is_prescribed(state_.bodies.kind[other]); });
     return true;
 }

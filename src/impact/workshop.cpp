@@ -46,6 +46,7 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     local_.bounds = state.bounds;
     local_.resolution = state.resolution;
     local_.laws = state.laws;
+    local_.bodies.top_growth = state.bodies.top_growth;
     log.clear();
     log_ids.clear();
     turned.clear();
@@ -66,6 +67,7 @@ void Workshop<Real>::clear() {
     bodies.course.clear();
     bodies.holds.clear();
     bodies.loads.clear();
+    bodies.growth.clear();
     guests_.clear();
     places_.clear();
     turned_.clear();
@@ -89,6 +91,7 @@ Index Workshop<Real>::admit(Index body, bool as_own) {
     bodies.material.append(from.material[body], place);
     bodies.course.push_back({.flight = recent_flight(from, slot)});
     if (!from.loads.empty()) bodies.loads.push_back(from.loads[body]);
+    if (!from.growth.empty()) bodies.growth.push_back(from.growth[body]);
     if (from.kind[body] == Kind::held) bodies.holds[slot] = hold_of(from, body);
     guests_.push_back({.body = body, .is_own = as_own});
     places_.insert(body, place);

@@ -114,7 +114,13 @@ void OverlapSearch::make_levels() {
 
 OverlapReport OverlapSearch::find(const World& world) {
     take_region(world.region());
-    world.get(ids_, {.position = positions_});
+    std::vector<double> radii(ids_.size());
+    world.get(ids_, {.position = positions_, .radius = radii});
+    if (radii != radii_) {
+        radii_ = std::move(radii);
+        levels_.clear();
+        make_levels();
+    }
     return find(positions_);
 }
 

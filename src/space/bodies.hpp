@@ -107,6 +107,12 @@ struct Load {
     bool is_told = false; ///< all that it can meet of its pile in the piece is among its contacts, if it stays slow
 };
 
+/// A radius that grows.
+struct Growth {
+    double radius = 0; ///< m, at the start of the step
+    double rate = 0;   ///< m/s
+};
+
 /// All bodies of a world, one element of each array per body.
 template <class Real>
 struct Bodies {
@@ -118,6 +124,8 @@ struct Bodies {
     Column<Real> friction;
     Column<std::uint32_t> material;
     Column<std::uint64_t> user_data;
+    std::vector<Growth> growth; ///< empty as long as no body grows
+    double top_growth = 0;      ///< m/s, the largest rate in size
     std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
@@ -142,6 +150,7 @@ struct Bodies {
         f(kind);
         f(slot);
         if (interpolating) f(previous);
+        if (!growth.empty()) f(growth);
         for_each_column([&f](auto& column) {
             if (!column.array().empty()) f(column.array());
         });
@@ -155,6 +164,27 @@ struct Bodies {
         f(user_data);
     }
 };
+
+/// m, `time` s after the start of the step; not from before the body's last impact.
+template <class Real>
+double radius_at(const Bodies<Real>& bodies, Index i, double time) {
+    if (bodies.growth.empty()) return static_cast<double>(bodies.motion[i].radius);
+    return bodies.growth[i].radius + bodies.growth[i].rate * time;
+}
+
+/// m/s
+template <class Real>
+double growth_of(const Bodies<Real>& bodies, Index i) {
+    return bodies.growth.empty() ? 0 : bodies.growth[i].rate;
+}
+
+/// Finds the largest rate of growth anew. Without any there is no growth.
+template <class Real>
+void update_top_growth(Bodies<Real>& bodies) {
+    bodies.top_growth = 0;
+    for (const Growth& growth : bodies.growth) bodies.top_growth = std::max(bodies.top_growth, std::abs(growth.rate));
+    if (bodies.top_growth == 0) bodies.growth.clear();
+}
 
 template <class Real>
 const Hold& hold_of(const Bodies<Real>& bodies, Index index) {

@@ -209,6 +209,7 @@ void advance(State<Real>& state, Index i, double s, Entry& entry) {
     const Vec3 a = acceleration_of(state, i);
     const Int3 start = m.x;
     const Vec3 d = move_on(m, a, s, state.resolution);
+    if (!state.bodies.growth.empty()) m.radius = static_cast<Real>(radius_at(state.bodies, i, s));
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
     if (state.bodies.kind[i] == Kind::piled) {
         // What creeps by less than the resolution stays, and gravity does no work on it.

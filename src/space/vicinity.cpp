@@ -159,7 +159,7 @@ double Vicinity<Real>::spare_windows() const {
 /// Takes new tracks with the old lists; false if so many bodies have no room that the lists had better be built anew.
 template <class Real>
 bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
-    if (!lists_valid_ || neighbours_.crowded()) return false;
+    if (!lists_valid_ || neighbours_.crowded() || !state_.bodies.growth.empty()) return false;
     neighbours_.drop_extensions();
     calendar_.clear();
     const float elapsed = relative(window.from);
@@ -202,6 +202,8 @@ void Vicinity<Real>::build(const Census& census, double way) {
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
     scale_.tolerance = static_cast<float>(4 * reach_margin_);
+    // A radius is as of the body's own time, which may be the start of the step in which the epoch begins.
+    reach_margin_ += state_.bodies.top_growth * (step_end_ + static_cast<double>(epoch_end()));
     // An eighth of the torus, where something has its images.
     longest_reach_ = state_.bounds.any_periodic() ? 0x1p29 * std::min({x, y, z}) : infinite;
     tracks_.resize(bodies);
@@ -479,7 +481,8 @@ Track Vicinity<Real>::track_of(const Motion<Real>& m, Kind kind, double room) co
         return track;
     }
     track.start = ticks_.of(m.x, is_free ? v * -now + g * (-0.5 * now * now) : Vec3{});
-    track.reach = static_cast<float>(is_free && sag_ == 0 ? reach : -reach);
+    // Who parts may grow faster.
+    track.reach = static_cast<float>(is_free && sag_ == 0 && state_.bodies.growth.empty() ? reach : -reach);
     track.speed = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     return track;
 }
@@ -639,6 +642,7 @@ void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earli
     const double end = epoch_ + windows_ * length_ * (1 + slack);
     double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
     if (state_.bounds.any_driven()) reach += state_.bounds.farthest_way(end);
+    reach += state_.bodies.top_growth * end;
     if (!state_.bounds.may_touch(m.x, reach, state_.resolution)) return;
     const std::uint32_t window = window_of(exact_relative(m.t) + first_wall_contact(m), earliest);
     if (window < windows_) calendar_.add_wall(part, window, body);
@@ -663,7 +667,7 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
         const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;
         // A wall's vibration comes and goes: at most as if it always came.
         const double own = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
-        const double speed = own + Bounds::top_speed(wall);
+        const double speed = own + Bounds::top_speed(wall) + state_.bodies.top_growth;
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
     }

@@ -107,6 +107,7 @@ private:
     void note_places(const std::vector<Index>& indices);
     void check_moved(const std::vector<Index>& indices);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
+    void set_growth(std::span<const double> rates, std::span<const Index> indices);
     void drop_attractors_of(BodyId id);
     [[nodiscard]] Vec3 metres_from(const Int3& zero, const Int3& x) const {
         return {metres_between(zero.x, x.x, setting_.resolution), metres_between(zero.y, x.y, setting_.resolution),
@@ -122,6 +123,7 @@ private:
     /// m/s^2, at least what the attractors do to any body.
     [[nodiscard]] double strongest_attraction() const;
     void check_step(const Census& census, double dt) const;
+    void check_growth(double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
     void tell_of_pile();

@@ -19,6 +19,7 @@ void check_sizes(const auto& columns, std::size_t count) {
     check_size(columns.velocity.size(), count, "velocity");
     check_size(columns.mass.size(), count, "mass");
     check_size(columns.radius.size(), count, "radius");
+    check_size(columns.growth.size(), count, "growth");
     check_size(columns.restitution.size(), count, "restitution");
     check_size(columns.friction.size(), count, "friction");
     check_size(columns.material.size(), count, "material");
@@ -130,6 +131,7 @@ void Engine<Real>::check_values(const ConstBodyColumns& columns, std::size_t cou
     for (std::size_t k = 0; k < columns.velocity.size(); ++k) check_velocity<Real>(columns.velocity[k], k);
     for (std::size_t k = 0; k < columns.mass.size(); ++k) check_mass<Real>(columns.mass[k], k);
     for (std::size_t k = 0; k < columns.radius.size(); ++k) check_radius(columns.radius[k], k);
+    for (std::size_t k = 0; k < columns.growth.size(); ++k) check_finite(columns.growth[k], "growth", k);
     for (std::size_t k = 0; k < columns.restitution.size(); ++k) {
         check_fraction(columns.restitution[k], "restitution", k);
     }
@@ -185,6 +187,7 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
         bodies.material.append(element(columns.material, k, standard.material), place);
         bodies.user_data.append(element(columns.user_data, k, standard.user_data), place);
         if (bodies.interpolating) bodies.previous.push_back(positions[k]);
+        if (!bodies.growth.empty()) bodies.growth.push_back({element(columns.radius, k, standard.radius), 0});
     }
 }
 
@@ -250,7 +253,12 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         drop_last(first_new);
         throw;
     }
-    for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
+    std::vector<Index> indices(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        indices[k] = static_cast<Index>(first_new + k);
+        ids[k] = give_id(indices[k]);
+    }
+    set_growth(columns.growth, indices);
     return ids;
 }
 
@@ -265,7 +273,8 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     fill(columns.position, [&](Index i) { return api_position(bodies.motion[i].x); });
     fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
     fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.mass[i]); });
-    fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
+    fill(columns.radius, [&](Index i) { return radius_at(bodies, i, 0); });
+    fill(columns.growth, [&](Index i) { return growth_of(bodies, i); });
     fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
     fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
     fill(columns.material, [&](Index i) { return bodies.material[i]; });
@@ -333,10 +342,28 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
     };
     write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
     write(columns.mass, [&](Index i, double mass) { bodies.mass.set(i, static_cast<Real>(mass), bodies.size()); });
+    if (!bodies.growth.empty()) {
+        write(columns.radius, [&](Index i, double radius) { bodies.growth[i].radius = radius; });
+    }
+    set_growth(columns.growth, indices);
     write(columns.restitution, [&](Index i, double e) { bodies.restitution.set(i, static_cast<Real>(e), size()); });
     write(columns.friction, [&](Index i, double mu) { bodies.friction.set(i, static_cast<Real>(mu), size()); });
     write(columns.material, [&](Index i, std::uint32_t key) { bodies.material.set(i, key, size()); });
     write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data.set(i, data, size()); });
+}
+
+/// All radii are kept as those that grow if one of them grows.
+template <class Real>
+void Engine<Real>::set_growth(std::span<const double> rates, std::span<const Index> indices) {
+    Bodies<Real>& bodies = state_.bodies;
+    const bool one_grows = std::any_of(rates.begin(), rates.end(), [](double rate) { return rate != 0; });
+    if (rates.empty() || (bodies.growth.empty() && !one_grows)) return;
+    islands_.vicinity().forget();
+    for (std::size_t i = bodies.growth.size(); i < size(); ++i) {
+        bodies.growth.push_back({static_cast<double>(bodies.motion[i].radius), 0});
+    }
+    for (std::size_t k = 0; k < rates.size(); ++k) bodies.growth[indices[k]].rate = rates[k];
+    update_top_growth(bodies);
 }
 
 template <class Real>
@@ -351,7 +378,8 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     }();
     move_bodies(columns, indices, overlap);
     write_columns(columns, indices);
-    const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
+    const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() ||
+                       !columns.growth.empty();
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);

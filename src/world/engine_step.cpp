@@ -94,6 +94,22 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
 }
 
 template <class Real>
+void Engine<Real>::check_growth(double dt) const {
+    for (Index i = 0; i < state_.bodies.growth.size(); ++i) {
+        if (state_.bodies.growth[i].rate == 0) continue;
+        const std::size_t slot = state_.bodies.slot[i];
+        const double radius = radius_at(state_.bodies, i, dt);
+        if (radius < 0) throw Error(ErrorCode::out_of_range, "growth", "would make the radius negative in this step", slot);
+        try {
+            check_radius(radius, slot);
+        } catch (const Error& error) {
+            throw Error(ErrorCode::out_of_range, "growth",
+                        std::string("would make the radius too large in this step: ") + error.what(), slot);
+        }
+    }
+}
+
+template <class Real>
 const StepReport& Engine<Real>::step(double dt) {
     Stopwatch watch;
     check_positive(dt, "dt");
@@ -105,6 +121,7 @@ const StepReport& Engine<Real>::step(double dt) {
     const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
     state_.bounds.check_motion(dt, setting_.resolution);
+    check_growth(dt);
     begin_step(dt);
     report_.seconds.cells += watch.lap();
     first_kick(0.5 * dt);
@@ -277,6 +294,10 @@ void Engine<Real>::finish_bodies(double reached) {
         takers[part].count(m, bodies.kind[i]);
     });
     for (std::size_t part = 1; part < most_parts; ++part) takers[0].add(takers[part]);
+    for (Index i = 0; i < bodies.growth.size(); ++i) {
+        bodies.growth[i].radius += bodies.growth[i].rate * reached;
+        bodies.motion[i].radius = static_cast<Real>(bodies.growth[i].radius);
+    }
     census_.reset();
     if (!has_kicks()) census_ = takers[0].census();
     for (RecentFlight& recent : bodies.recent_flights) recent.flight.last_impact -= reached;

@@ -155,6 +155,11 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, Growth& growth) {
+    archive(growth.radius, growth.rate);
+}
+
+template <class Archive>
 void transfer(Archive& archive, ContactForce& force) {
     archive(force.a, force.code, force.normal, force.friction);
 }
@@ -243,7 +248,7 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
+    archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
             b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
             last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
@@ -283,6 +288,7 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     transfer(reader, state_.bodies);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
+    update_top_growth(state_.bodies);
     for (Index i = 0; i < size(); ++i) {
         if (state_.bodies.kind[i] == Kind::piled) state_.bodies.newly_piled = true;
         if (state_.bodies.kind[i] == Kind::kinematic) state_.bodies.kinematics.insert(state_.bodies.slot[i]);
@@ -303,7 +309,9 @@ template <class Real>
 bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const std::size_t expected_previous = b.interpolating ? size() : 0;
+    const std::size_t expected_growth = b.growth.empty() ? 0 : size();
     return b.kind.size() == size() && b.slot.size() == size() && b.previous.size() == expected_previous &&
+           b.growth.size() == expected_growth &&
            b.mass.is_sound(size()) && b.restitution.is_sound(size()) && b.friction.is_sound(size()) &&
            b.material.is_sound(size()) && b.user_data.is_sound(size());
 }
@@ -339,6 +347,8 @@ bool Engine<Real>::bodies_are_sound() const {
         }
         check_finite(velocity_of(m), "velocity", i);
         check_radius(static_cast<double>(m.radius), i);
+        check_finite(growth_of(b, i), "growth", i);
+        if (static_cast<Real>(radius_at(b, i, 0)) != m.radius) return false;
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
         const bool prescribed = is_prescribed(b.kind[i]);
@@ -419,6 +429,7 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
+        if (growth_of(state_.bodies, i) != 0) hasher(state_.bodies.growth[i].radius, state_.bodies.growth[i].rate);
         if (state_.bodies.kind[i] == Kind::piled) hasher(Kind::piled);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);

@@ -125,8 +125,18 @@ inline scene::Scene shaker() {
     return scene;
 }
 
-inline constexpr std::array<std::string_view, 6> small_scene_names{"one_cell", "three_bodies", "corners",
-                                                                   "heap",     "piston",       "shaker"};
+/// A dense periodic fluid whose bodies grow until they hardly have room.
+inline scene::Scene growing() {
+    scene::Scene scene = one_cell();
+    scene.bodies.radius.assign(scene.bodies.size(), 0.25);
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        scene.bodies.growth[k] = k % 3 == 0 ? 0.015625 : 0.0078125;
+    }
+    return scene;
+}
+
+inline constexpr std::array<std::string_view, 7> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
+                                                                   "piston",   "shaker",       "growing"};
 
 inline scene::Scene small_scene(std::string_view name, Precision precision) {
     scene::Scene scene = name == "one_cell"       ? one_cell()
@@ -134,6 +144,7 @@ inline scene::Scene small_scene(std::string_view name, Precision precision) {
                          : name == "corners"      ? corners()
                          : name == "piston"       ? piston()
                          : name == "shaker"       ? shaker()
+                         : name == "growing"      ? growing()
                                                   : heap();
     scene.name = name;
     scene.options.precision = precision;

@@ -102,6 +102,7 @@ World random_world(unsigned seed, bool is_driven = false) {
     World world(options);
     const double speed = random.chance(3) ? 0.5 : 20;
     const double e = random.chance(3) ? 1 : random.within(0, 1);
+    const bool grow = is_driven && random.chance(2);
     for (int k = 0; k < 64; ++k) {
         const int row = k / 4 % 4;
         const int layer = k / 16;
@@ -117,6 +118,7 @@ World random_world(unsigned seed, bool is_driven = false) {
             body.mass = std::numeric_limits<double>::infinity();
             body.velocity = is_driven && random.chance(2) ? random.vector(5) : Vec3{};
         }
+        if (grow) body.growth = random.within(-0.05, 0.1);
         world.add(body, carom::Overlap::accept);
     }
     if (random.chance(4)) {

@@ -153,6 +153,7 @@ strength = 3
 name = "sun"
 position = [25, 25, 25]
 velocity = [0, 0, 1]
+growth = 0.1
 [[bodies]]
 generator = "disc"
 count = 50
