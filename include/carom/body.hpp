@@ -27,8 +27,8 @@ struct BodyId {
     [[nodiscard]] constexpr bool is_set() const { return slot != 0xffffffffU; }
 };
 
-/// Mass of a body that takes any momentum, and that nothing which happens makes move otherwise: a static body, or with a
-/// velocity a kinematic one. That goes straight on at this velocity until it is set anew; it passes through faces and
+/// Mass of a body that takes any momentum, and that nothing which happens makes move otherwise: a static body, or with
+/// a velocity a kinematic one. That goes straight on at this velocity until it is set anew; it passes through faces and
 /// static and kinematic bodies.
 inline constexpr double infinite_mass = std::numeric_limits<double>::infinity();
 
@@ -38,11 +38,11 @@ struct Body {
     Vec3 velocity{};             ///< m/s
     double mass = 1;             ///< kg, > 0; infinite_mass makes the body static, or kinematic if it has a velocity
     double radius = 0.5;         ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
-    double growth = 0;           ///< m/s, of the radius; a step in which a radius would become negative is refused
     double restitution = 1;      ///< e in [0, 1]; two bodies use the larger
     double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
     std::uint32_t material = 0;  ///< key into the world's material rules; has no other effect
     std::uint64_t user_data = 0; ///< yours; kept in snapshots, no part of the hash
+    double growth = 0;           ///< m/s, of the radius; a step in which a radius would become negative is refused
 };
 
 /// Columns of many bodies to read from: the primary way in. Either all bodies' values or, if empty, none: then
@@ -52,11 +52,11 @@ struct ConstBodyColumns {
     std::span<const Vec3> velocity{};
     std::span<const double> mass{};
     std::span<const double> radius{};
-    std::span<const double> growth{};
     std::span<const double> restitution{};
     std::span<const double> friction{};
     std::span<const std::uint32_t> material{};
     std::span<const std::uint64_t> user_data{};
+    std::span<const double> growth{};
 };
 
 /// Columns of many bodies to write to: the primary way out. Empty columns are not wanted. Units as in Body.
@@ -65,11 +65,11 @@ struct BodyColumns {
     std::span<Vec3> velocity{};
     std::span<double> mass{};
     std::span<double> radius{};
-    std::span<double> growth{};
     std::span<double> restitution{};
     std::span<double> friction{};
     std::span<std::uint32_t> material{};
     std::span<std::uint64_t> user_data{};
+    std::span<double> growth{};
 };
 
 /// What e and mu two bodies of the materials `a` and `b` (in either order) use instead of the combined ones.

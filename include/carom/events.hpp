@@ -73,7 +73,7 @@ struct Ledger {
     double lost_to_restitution = 0; ///< J, in impacts and by coming to rest
     double lost_to_friction = 0;    ///< J
     double lost_to_drag = 0;        ///< J
-    double prescribed_work = 0;     ///< J, given to the bodies by faces and bodies that move as prescribed, and by growth
+    double prescribed_work = 0; ///< J, given to the bodies by faces and bodies that move as prescribed, and by growth
     /// N s given to the bodies by gravity, attractors, drag, faces and static bodies, all together.
     Vec3 outer_impulse{};
 

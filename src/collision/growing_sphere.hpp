@@ -8,11 +8,11 @@ namespace carom::detail {
 
 /// When two spheres meet, s, or no_impact if not in [0, horizon], by the touch rule of time_of_impact.hpp.
 ///
-/// `delta` (m), `velocity` (m/s) and `acceleration` (m/s^2) are of b relative to a, `contact_distance` (m) is the sum of
-/// the radii now and `growth` (m/s), of any sign, what it grows by; it stays positive up to the horizon.
+/// `delta` (m), `velocity` (m/s) and `acceleration` (m/s^2) are of b relative to a, `contact_distance` (m) is the sum
+/// of the radii now and `growth` (m/s), of any sign, what it grows by; it stays positive up to the horizon.
 ///
-/// Without acceleration a quadratic: |d + v t| = R + G t, by the root that does not cancel. Else a search in safe steps:
-/// the distance has a curvature of -|a| at least.
+/// Without acceleration a quadratic: |d + v t| = R + G t, by the root that does not cancel. Else a search in safe
+/// steps: the distance has a curvature of -|a| at least.
 double time_to_growing_spheres(const Vec3& delta, const Vec3& velocity, const Vec3& acceleration,
                                double contact_distance, double growth, double horizon);
 

@@ -21,8 +21,8 @@ inline double time_to_fall(double height, double slope, double curvature) {
 /// to zero, or to what it is now if that is less and it never gets clear; no_impact if it does not.
 ///
 /// The curve has value(t) and slope(t), and begins_to_fall() where it is at rest now. Of safe_step(t, height, slope) it
-/// promises that it does not fall by `height` in less; where it does not fall, steps are least_step() at least, in which
-/// it can fall by no more than rounding(t), the error of its values.
+/// promises that it does not fall by `height` in less; where it does not fall, steps are least_step() at least, in
+/// which it can fall by no more than rounding(t), the error of its values.
 template <class Curve>
 double first_descent(const Curve& curve, double horizon) {
     constexpr int most_steps = 1'000'000;

@@ -494,8 +494,7 @@ void Pile<Real>::measure(std::uint32_t number) {
         const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
         contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
         const double growth = growth_of(state_.bodies, a.body);
-        contact.gap =
-            state_.bounds.gap(wall, m.x, {}, radius_at(state_.bodies, a.body, now_), now_, state_.resolution);
+        contact.gap = state_.bounds.gap(wall, m.x, {}, radius_at(state_.bodies, a.body, now_), now_, state_.resolution);
         if (contact.surface != 0) surfaces_[contact.surface] = mean_velocity(wall, m.x) - contact.normal * growth;
     } else if (contact.surface != 0) {
         look_at_kinematic(number);

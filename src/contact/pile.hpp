@@ -96,24 +96,24 @@ private:
     };
     /// What is not in the books yet.
     struct Account {
-        Vec3 momentum{};           ///< N s
-        double lost = 0;           ///< J
+        Vec3 momentum{};            ///< N s
+        double lost = 0;            ///< J
         double prescribed_work = 0; ///< J
-        double held_mass_time = 0; ///< kg s
+        double held_mass_time = 0;  ///< kg s
     };
     /// What a leaner touches, or may while the list lasts. Two cache lines: the passes stream through them.
     struct Contact {
-        std::uint32_t a = 0;      ///< a leaner; of two, the one with the lower slot
-        std::uint32_t b = nobody; ///< the other leaner, or nobody
-        Vec3 apart{};             ///< m, from a to another body when they were listed
-        double touching = 0;      ///< m, the distance at which they touch
-        Vec3 normal{};            ///< unit vector from a to the other
-        double gap = 0;           ///< m
-        double impulse = 0;       ///< N s in a piece, pushes them apart
-        double mass = 0;          ///< kg, reduced
-        double friction = 0;      ///< Coulomb's mu
-        Vec3 friction_impulse{};  ///< N s in a piece, on the other
-        bool is_open = false;     ///< left to the impacts: the two approach too fast
+        std::uint32_t a = 0;       ///< a leaner; of two, the one with the lower slot
+        std::uint32_t b = nobody;  ///< the other leaner, or nobody
+        Vec3 apart{};              ///< m, from a to another body when they were listed
+        double touching = 0;       ///< m, the distance at which they touch
+        Vec3 normal{};             ///< unit vector from a to the other
+        double gap = 0;            ///< m
+        double impulse = 0;        ///< N s in a piece, pushes them apart
+        double mass = 0;           ///< kg, reduced
+        double friction = 0;       ///< Coulomb's mu
+        Vec3 friction_impulse{};   ///< N s in a piece, on the other
+        bool is_open = false;      ///< left to the impacts: the two approach too fast
         std::uint32_t surface = 0; ///< in surfaces_: how the other moves if that is prescribed
     };
     /// What is seldom asked of a contact.
@@ -220,7 +220,7 @@ private:
     std::vector<Index> statics_;
     std::vector<Account> accounts_; ///< per leaner
     std::vector<ContactName> names_;
-    std::vector<Contact> contacts_; ///< in the order in which they are solved
+    std::vector<Contact> contacts_;      ///< in the order in which they are solved
     std::vector<Vec3> surfaces_{Vec3{}}; ///< m/s, the first of what rests, the others of one contact each
     std::vector<Column> columns_;
     std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_

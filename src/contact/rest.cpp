@@ -150,11 +150,8 @@ Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Rea
                         double growth) {
     const double distance = static_cast<double>(motion.radius) + static_cast<double>(fixed.radius);
     const Vec3 velocity = velocity_of(fixed) - normal * growth;
-    return {.code = slot,
-            .normal = normal,
-            .bend = -1 / distance,
-            .is_driven = velocity != Vec3{},
-            .velocity = velocity};
+    return {
+        .code = slot, .normal = normal, .bend = -1 / distance, .is_driven = velocity != Vec3{}, .velocity = velocity};
 }
 
 template <class Real>

@@ -71,9 +71,8 @@ double time_to_image(const State<Real>& state, const Path<Real>& a, const Path<R
     // Along curved paths to the end of the step: the search for their roots starts from there, and its bits must not
     // depend on windows.
     const double horizon = horizon_of(start, pull != Vec3{} ? state.laws.kick_interval : until);
-    double time = growth == 0
-                      ? time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon)
-                      : detail::time_to_growing_spheres(delta, m.v_b - m.v_a, pull, contact, growth, horizon);
+    double time = growth == 0 ? time_to_spheres(delta, m.v_b - m.v_a, pull, contact, horizon)
+                              : detail::time_to_growing_spheres(delta, m.v_b - m.v_a, pull, contact, growth, horizon);
     if (time == 0) time = immediate(state, a, b, m, delta, pull);
     const bool two_move = !is_prescribed(a.kind) && !is_prescribed(b.kind);
     return two_move && pull != Vec3{} && time < no_impact ? end_of_contact(state, m, delta, pull, growth, time) : time;
@@ -159,7 +158,8 @@ double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path
     const double strike = striking_speed(encounter.restitution, load, state.laws);
     const double growth = growth_of(a, b);
     const double slow = strike - growth;
-    if (growth <= strike && length_squared(velocity_of(*a.motion) - velocity_of(*b.motion)) <= slow * slow) return no_impact;
+    if (growth <= strike && length_squared(velocity_of(*a.motion) - velocity_of(*b.motion)) <= slow * slow)
+        return no_impact;
     const double time = predict_in_order(state, a, b, now, until);
     if (time > until) return no_impact;
     const Meeting m = meeting_at(state, a, b, time);
@@ -185,7 +185,8 @@ bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall
 template <class Real>
 double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<Real>& j, double now, double until) {
     const bool both_free = i.kind == Kind::free && j.kind == Kind::free;
-    if (both_free && !state.bounds.any_periodic() && i.bodies->growth.empty()) return predict_free_pair(state, *i.motion, *j.motion, until);
+    if (both_free && !state.bounds.any_periodic() && i.bodies->growth.empty())
+        return predict_free_pair(state, *i.motion, *j.motion, until);
     const bool in_order = i.slot < j.slot;
     const Path<Real>& a = in_order ? i : j;
     const Path<Real>& b = in_order ? j : i;
@@ -205,12 +206,12 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
 
-/// s from `time` (since the start of the step) until a gap (m) to a flat wall is closed, by a body that has `velocity` and
-/// `acceleration` away from it, the velocity relative to the wall's now.
-double time_to_flat_wall(const Bounds::Wall& wall, double gap, double velocity, double acceleration, double time,
-                         double horizon) {
+/// s from `time` (since the start of the step) until a gap (m) to a flat wall that moves is closed, by a body that has
+/// `velocity` and `acceleration` away from it, the velocity relative to the wall's now.
+double time_to_driven_wall(const Bounds::Wall& wall, double gap, double velocity, double acceleration, double time,
+                           double horizon) {
     const FaceMotion& motion = wall.motion;
-    if (!wall.is_driven || motion.amplitude == 0) return time_to_plane(gap, velocity, acceleration, horizon);
+    if (motion.amplitude == 0) return time_to_plane(gap, velocity, acceleration, horizon);
     const double phase = wall.phase.value() + motion.angular_frequency * time;
     const double swing = motion.amplitude * motion.angular_frequency * detail::cos(phase);
     return detail::time_to_vibrating_plane(gap, velocity + swing, acceleration,
@@ -240,7 +241,10 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
         time = growth == 0 ? time_to_shell_inside(from_centre, v, a, clearance, horizon)
                            : detail::time_to_shell_growing(from_centre, v, a, clearance, growth, horizon);
     } else {
-        time = time_to_flat_wall(face, gap, -dot(relative, face.normal) - growth, -dot(a, face.normal), m.t, horizon);
+        const double parting = -dot(relative, face.normal) - growth;
+        const double lift = -dot(a, face.normal);
+        time = face.is_driven ? time_to_driven_wall(face, gap, parting, lift, m.t, horizon)
+                              : time_to_plane(gap, parting, lift, horizon);
     }
     if (bodies.kind[body] == Kind::piled) {
         return time <= horizon && strikes_wall(state, body, face, time) ? m.t + time : no_impact;
@@ -253,8 +257,9 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     const double pressing = pressure_on(state, m, bodies.slot[body], support, relative).acceleration;
     if (std::max(pressing, dot(a - support.acceleration, n)) > 0) return m.t;
     // A wall that vibrates turns back.
-    const double back = time_to_flat_wall(face, gap, 0, -dot(a, face.normal), m.t, horizon);
-    return face.motion.amplitude > 0 && back > 0 ? m.t + back : no_impact;
+    if (!face.is_driven || face.motion.amplitude == 0) return no_impact;
+    const double back = time_to_driven_wall(face, gap, 0, -dot(a, face.normal), m.t, horizon);
+    return back > 0 ? m.t + back : no_impact;
 }
 
 template <class Real>

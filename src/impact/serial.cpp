@@ -156,7 +156,8 @@ bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
     const double growth = state_.bodies.top_growth * to;
     if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to, growth))) return true;
     neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_ + growth));
-    neighbours_.link_all(*loops_, {&body, 1}, [this](Index other) { return !is_prescribed(state_.bodies.kind[other]); });
+    neighbours_.link_all(*loops_, {&body, 1},
+                         [this](Index other) { return !is_prescribed(state_.bodies.kind[other]); });
     return true;
 }
 

@@ -41,10 +41,10 @@ ConstBodyColumns BodyTable::columns() const {
             .velocity = velocity,
             .mass = mass,
             .radius = radius,
-            .growth = growth,
             .restitution = restitution,
             .friction = friction,
-            .material = material};
+            .material = material,
+            .growth = growth};
 }
 
 } // namespace carom::scene

@@ -127,7 +127,8 @@ void Bounds::add_shell(const Shell& shell, const Resolution& resolution, const I
     check_surface(shell.surface, "region.surface", Error::no_index);
     shape_ = Shape::shell;
     shell_radius_ = shell.radius;
-    add_wall({.point = position_units(shell.centre, resolution, origin, "region.centre"), .surface = shell.surface}, {});
+    add_wall({.point = position_units(shell.centre, resolution, origin, "region.centre"), .surface = shell.surface},
+             {});
 }
 
 void Bounds::add_wall(Wall wall, const FaceMotion& motion) {
@@ -151,7 +152,8 @@ void Bounds::set_motion(std::size_t wall, const FaceMotion& motion, const std::s
     }
     w.motion = motion;
     w.motion.surface_velocity -= w.normal * out_of_face;
-    w.is_driven = motion.velocity != 0 || motion.amplitude * motion.angular_frequency != 0 || motion.surface_velocity != Vec3{};
+    w.is_driven =
+        motion.velocity != 0 || motion.amplitude * motion.angular_frequency != 0 || motion.surface_velocity != Vec3{};
     w.phase = {motion.phase};
     w.travelled = {w.offset - motion.amplitude * detail::sin(motion.phase)};
     w.offset = rest_offset(w);
@@ -170,12 +172,12 @@ double Bounds::driven_offset(const Wall& wall, double time) {
     return way + motion.amplitude * (detail::sin(phase + motion.angular_frequency * time) - detail::sin(phase));
 }
 
-Vec3 Bounds::velocity(const Wall& wall, const Int3& /*x*/, const Vec3& /*d*/, double time) {
-    if (!wall.is_driven) return {};
+Vec3 Bounds::driven_velocity(const Wall& wall, const Int3& /*x*/, const Vec3& /*d*/, double time) {
     const FaceMotion& motion = wall.motion;
     double speed = motion.velocity;
     if (motion.amplitude != 0) {
-        speed += motion.amplitude * motion.angular_frequency * detail::cos(wall.phase.value() + motion.angular_frequency * time);
+        speed += motion.amplitude * motion.angular_frequency *
+                 detail::cos(wall.phase.value() + motion.angular_frequency * time);
     }
     return motion.surface_velocity - wall.normal * speed;
 }
@@ -212,11 +214,11 @@ void Bounds::check_motion(double duration, const Resolution& resolution) const {
         for (const Wall& other : walls_) {
             // Only the faces of a box are known to be opposite.
             if (!wall.is_driven || &other == &wall || (wall.face ^ other.face) != 1 || !is_box_) continue;
-            const double apart = std::abs(metres_between(component(wall.point, wall.axis),
-                                                         component(other.point, wall.axis), resolution));
+            const double apart = std::abs(
+                metres_between(component(wall.point, wall.axis), component(other.point, wall.axis), resolution));
             if (innermost(wall) + innermost(other) < apart) continue;
-            throw Error(ErrorCode::out_of_range, "motion", "would take the face as far as the opposite one in this step",
-                        face);
+            throw Error(ErrorCode::out_of_range, "motion",
+                        "would take the face as far as the opposite one in this step", face);
         }
     }
 }

@@ -57,7 +57,9 @@ public:
         return wall.is_driven ? driven_offset(wall, time) : wall.offset;
     }
     /// m/s, of the wall's surface where it touches a body at `x + d` (units + m), `time` s after the start of the step.
-    [[nodiscard]] static Vec3 velocity(const Wall& wall, const Int3& x, const Vec3& d, double time);
+    [[nodiscard]] static Vec3 velocity(const Wall& wall, const Int3& x, const Vec3& d, double time) {
+        return wall.is_driven ? driven_velocity(wall, x, d, time) : Vec3{};
+    }
     /// m/s^2
     [[nodiscard]] static Vec3 acceleration(const Wall& wall, double time);
     /// m/s, at least as fast as the wall ever comes towards the bodies.
@@ -110,6 +112,7 @@ private:
     void add_wall(Wall wall, const FaceMotion& motion);
     void narrow(const Wall& wall, double way, const Resolution& resolution);
     static double driven_offset(const Wall& wall, double time);
+    static Vec3 driven_velocity(const Wall& wall, const Int3& x, const Vec3& d, double time);
     static double rest_offset(const Wall& wall);
 
     Shape shape_ = Shape::flat;

@@ -313,8 +313,8 @@ void Vicinity<Real>::charge(Index body) {
     if (tracks_[body].room < 0) exits_.push_back(body);
 }
 
-/// m, at least what a held or kinematic body moves until the end of the step, or a piled one until that of the piece; a held one may
-/// also be put back onto a curved support, by no more than it slid.
+/// m, at least what a held or kinematic body moves until the end of the step, or a piled one until that of the piece; a
+/// held one may also be put back onto a curved support, by no more than it slid.
 template <class Real>
 double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const {
     const double duration = (kind == Kind::piled ? piece_end_ : step_end_) - motion.t;
@@ -667,7 +667,7 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
         const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;
         // A wall's vibration comes and goes: at most as if it always came.
         const double own = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
-        const double speed = own + Bounds::top_speed(wall) + state_.bodies.top_growth;
+        const double speed = own + state_.bodies.top_growth + (wall.is_driven ? Bounds::top_speed(wall) : 0);
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
     }

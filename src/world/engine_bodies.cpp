@@ -378,8 +378,8 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     }();
     move_bodies(columns, indices, overlap);
     write_columns(columns, indices);
-    const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() ||
-                       !columns.growth.empty();
+    const bool moved =
+        !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);

@@ -99,7 +99,8 @@ void Engine<Real>::check_growth(double dt) const {
         if (state_.bodies.growth[i].rate == 0) continue;
         const std::size_t slot = state_.bodies.slot[i];
         const double radius = radius_at(state_.bodies, i, dt);
-        if (radius < 0) throw Error(ErrorCode::out_of_range, "growth", "would make the radius negative in this step", slot);
+        if (radius < 0)
+            throw Error(ErrorCode::out_of_range, "growth", "would make the radius negative in this step", slot);
         try {
             check_radius(radius, slot);
         } catch (const Error& error) {

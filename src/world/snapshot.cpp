@@ -300,8 +300,7 @@ template <class Real>
 void Engine<Real>::check_loaded() const {
     const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && flights_are_sound() &&
                        holds_are_sound() && contacts_are_sound() && attractors_are_sound() && walls_are_sound() &&
-                       clock_.is_sound() &&
-                       last_start_ >= 0 && last_step_ >= 0;
+                       clock_.is_sound() && last_start_ >= 0 && last_step_ >= 0;
     if (!sound) refuse("contradicts itself");
 }
 
@@ -311,9 +310,8 @@ bool Engine<Real>::arrays_are_sound() const {
     const std::size_t expected_previous = b.interpolating ? size() : 0;
     const std::size_t expected_growth = b.growth.empty() ? 0 : size();
     return b.kind.size() == size() && b.slot.size() == size() && b.previous.size() == expected_previous &&
-           b.growth.size() == expected_growth &&
-           b.mass.is_sound(size()) && b.restitution.is_sound(size()) && b.friction.is_sound(size()) &&
-           b.material.is_sound(size()) && b.user_data.is_sound(size());
+           b.growth.size() == expected_growth && b.mass.is_sound(size()) && b.restitution.is_sound(size()) &&
+           b.friction.is_sound(size()) && b.material.is_sound(size()) && b.user_data.is_sound(size());
 }
 
 template <class Real>

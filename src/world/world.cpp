@@ -24,11 +24,11 @@ ConstBodyColumns one_row(const Body& body) {
             .velocity = {&body.velocity, 1},
             .mass = {&body.mass, 1},
             .radius = {&body.radius, 1},
-            .growth = {&body.growth, 1},
             .restitution = {&body.restitution, 1},
             .friction = {&body.friction, 1},
             .material = {&body.material, 1},
-            .user_data = {&body.user_data, 1}};
+            .user_data = {&body.user_data, 1},
+            .growth = {&body.growth, 1}};
 }
 
 BodyColumns one_row(Body& body) {
@@ -36,11 +36,11 @@ BodyColumns one_row(Body& body) {
             .velocity = {&body.velocity, 1},
             .mass = {&body.mass, 1},
             .radius = {&body.radius, 1},
-            .growth = {&body.growth, 1},
             .restitution = {&body.restitution, 1},
             .friction = {&body.friction, 1},
             .material = {&body.material, 1},
-            .user_data = {&body.user_data, 1}};
+            .user_data = {&body.user_data, 1},
+            .growth = {&body.growth, 1}};
 }
 
 } // namespace

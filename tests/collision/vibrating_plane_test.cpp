@@ -1,7 +1,7 @@
 // Times of impact with a plane that vibrates, against a search in long double that looks everywhere.
 
-#include "collision/vibrating_plane.hpp"
 #include "collision/random_input.hpp"
+#include "collision/vibrating_plane.hpp"
 
 #include <carom/time_of_impact.hpp>
 

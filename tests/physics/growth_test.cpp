@@ -30,7 +30,7 @@ TEST(Growth, APairMeetsAtTheExactTimeAndParts) {
     for (const double e : {1.0, 0.5, 0.0}) {
         for (const auto precision : {carom::Precision::double_precision, carom::Precision::single_precision}) {
             World world({.precision = precision});
-            const BodyId a = world.add({.mass = 2, .growth = 0.25, .restitution = e});
+            const BodyId a = world.add({.mass = 2, .restitution = e, .growth = 0.25});
             const BodyId b = world.add({.position = {4, 0, 0}, .velocity = {-0.5, 0, 0}, .mass = 3, .restitution = 0});
             const double before = balance(world);
             const bool is_double = precision == carom::Precision::double_precision;
@@ -57,7 +57,7 @@ TEST(Growth, FallingBodiesMeetWhatGrowsAtTheExactTime) {
     World world({.gravity = {0, 0, -g}, .region = std::vector<carom::Plane>{{.point = {0, 0, -5}}}});
     world.add({.mass = infinite_mass, .radius = 1, .growth = 0.5});
     const BodyId above = world.add({.position = {0, 0, 6}, .velocity = {0, 0, 1}});
-    const BodyId aside = world.add({.position = {20, 0, 0}, .growth = 0.75, .restitution = 0.5});
+    const BodyId aside = world.add({.position = {20, 0, 0}, .restitution = 0.5, .growth = 0.75});
     world.step(1.25);
     ASSERT_EQ(world.impacts().size(), 2U);
     // 4.5 + (1 - 0.5) t = g t^2 / 2, and the same with 4.5 - 0.75 t.
@@ -89,7 +89,7 @@ TEST(Growth, InAShell) {
 TEST(Growth, LiftsWhatLiesOnIt) {
     carom::Box box{{0, 0, 0}, {2, 2, 9}};
     World world({.gravity = {0, 0, -g}, .region = box});
-    const BodyId below = world.add({.position = {1, 1, 0.5}, .growth = 0.05, .restitution = 0.2});
+    const BodyId below = world.add({.position = {1, 1, 0.5}, .restitution = 0.2, .growth = 0.05});
     const BodyId above = world.add({.position = {1, 1, 1.5}, .restitution = 0.2});
     const double before = balance(world);
     for (int k = 0; k < 240; ++k) world.step(1.0 / 60);
@@ -152,8 +152,8 @@ TEST(Growth, GoesOnAfterASnapshotAndBodiesComeAndGo) {
     EXPECT_GT(world.ledger().impacts, 10U);
 }
 
-/// Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990): spheres in a periodic box grow from a fluid to a packing that
-/// no random insertion reaches. No two overlap on the way.
+/// Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990): spheres in a periodic box grow from a fluid to a packing
+/// that no random insertion reaches. No two overlap on the way.
 TEST(Growth, CompressesAFluidToADensePacking) {
     constexpr int row = 9;
     constexpr int count = row * row * row;

@@ -1,5 +1,5 @@
-// What moves as prescribed, faces and kinematic bodies, takes any momentum, at exact times of impact, and the books tell
-// the work that it does.
+// What moves as prescribed, faces and kinematic bodies, takes any momentum, at exact times of impact, and the books
+// tell the work that it does.
 
 #include <carom/carom.hpp>
 
@@ -253,7 +253,8 @@ TEST(Shaker, BallMeetsThePlateAtTheExactTimes) {
                 (plate_gap(plate, z, v, from, middle) > 0 ? above : t) = middle;
             }
             const long double speed = v - g * (t - from);
-            const long double plate_speed = plate.amplitude * plate.angular_frequency * std::cos(plate.angular_frequency * t);
+            const long double plate_speed =
+                plate.amplitude * plate.angular_frequency * std::cos(plate.angular_frequency * t);
             // Positions are rounded to 2^-41 m at each impact and step: they come that much later or earlier.
             const double approach = static_cast<double>(plate_speed - speed);
             worst = std::max(worst, std::abs(static_cast<double>(impact.time - t)) * approach);
@@ -265,8 +266,8 @@ TEST(Shaker, BallMeetsThePlateAtTheExactTimes) {
             v = world.get(ball).velocity.z + static_cast<long double>(g) * flown;
             ++impacts;
         }
-        std::printf("figure: %d impacts on a plate that shakes at %.1f g: gaps there within %.2g m\n", impacts, strength,
-                    worst);
+        std::printf("figure: %d impacts on a plate that shakes at %.1f g: gaps there within %.2g m\n", impacts,
+                    strength, worst);
         EXPECT_GT(impacts, 15);
         // Each step rounds the height, by 2.6e-13 m rms: some 10^3 of them in a flight, and 2e4 in all, are 8e-12 m and
         // 4e-11 m, of which g makes 4e-10 J. Four times that.
@@ -313,7 +314,8 @@ TEST(Lift, IsAsARestingWorld) {
         World world({.gravity = {0, 0, -g}, .region = box});
         for (int k = 0; k < 12; ++k) {
             const Vec3 place{0.7 + k % 3, 0.7 + k / 3 % 2, 0.7 + k / 6 * 1.5};
-            world.add({.position = place, .velocity = {0.3 * k - 1, 1 - 0.2 * k, v}, .radius = 0.3, .restitution = 0.95});
+            world.add(
+                {.position = place, .velocity = {0.3 * k - 1, 1 - 0.2 * k, v}, .radius = 0.3, .restitution = 0.95});
         }
         return world;
     };

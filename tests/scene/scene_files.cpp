@@ -145,10 +145,8 @@ faces = { x_max = { motion = { velocity = 0.5 } }, z_min = { motion = { amplitud
 )");
     const Box& box = std::get<Box>(scene.options.region);
     EXPECT_EQ(box.faces[1].motion, (FaceMotion{.velocity = 0.5}));
-    EXPECT_EQ(box.faces[4].motion, (FaceMotion{.amplitude = 0.1,
-                                               .angular_frequency = 20,
-                                               .phase = 1,
-                                               .surface_velocity = {1, 0, 0}}));
+    EXPECT_EQ(box.faces[4].motion,
+              (FaceMotion{.amplitude = 0.1, .angular_frequency = 20, .phase = 1, .surface_velocity = {1, 0, 0}}));
     EXPECT_EQ(box.faces[0].motion, FaceMotion{});
     const Scene planes = parsed("[region]\nkind = \"planes\"\nplane = [{ motion = { velocity = -2 } }]\n");
     EXPECT_EQ(std::get<std::vector<Plane>>(planes.options.region)[0].motion, (FaceMotion{.velocity = -2}));

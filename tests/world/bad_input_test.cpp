@@ -97,10 +97,10 @@ struct Table {
         user_data.push_back(body.user_data);
     }
     [[nodiscard]] ConstBodyColumns columns() const {
-        return {position, velocity, mass, radius, growth, restitution, friction, material, user_data};
+        return {position, velocity, mass, radius, restitution, friction, material, user_data, growth};
     }
     [[nodiscard]] BodyColumns columns() {
-        return {position, velocity, mass, radius, growth, restitution, friction, material, user_data};
+        return {position, velocity, mass, radius, restitution, friction, material, user_data, growth};
     }
 };
 
