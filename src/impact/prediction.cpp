@@ -19,13 +19,21 @@ bool presses_on(const State<Real>& state, const Path<Real>& body, const Path<Rea
     return pressure_on(state, *body.motion, body.slot, support, velocity).acceleration > 0;
 }
 
+/// As the response has it: the approach speed that is mere rounding, of surfaces that growth drives on.
+template <class Real>
+double surface_rounding(const Path<Real>& a, const Path<Real>& b, const Meeting& m, const Vec3& n) {
+    const Vec3 own = n * growth_of(a, b);
+    if (is_prescribed(a.kind)) return approach_rounding<Real>(m.v_a + own, m.v_b, n);
+    return approach_rounding<Real>(m.v_a, m.v_b - own, n);
+}
+
 /// An impact that the times of impact put at once, between bodies that touch: whether there is one, and when.
 template <class Real>
 double immediate(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, const Meeting& m,
                  const Vec3& delta, const Vec3& pull) {
     const Vec3 n = contact_normal(delta, Vec3{});
     const double approach = dot(m.v_a - m.v_b, n) + growth_of(a, b);
-    if (approach > approach_rounding<Real>(m.v_a, m.v_b, n)) return 0;
+    if (approach > surface_rounding(a, b, m, n)) return 0;
     if (is_prescribed(b.kind)) return presses_on(state, a, b, n, m.v_a - m.v_b) ? 0 : no_impact;
     if (is_prescribed(a.kind)) return presses_on(state, b, a, -n, m.v_b - m.v_a) ? 0 : no_impact;
     return pressing_along(n, length(delta), m.v_b - m.v_a, pull) > 0 ? 0 : no_impact;
@@ -165,7 +173,7 @@ double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path
     const Meeting m = meeting_at(state, a, b, time);
     const Vec3 n = contact_normal(m.delta, Vec3{});
     const double approach = dot(m.v_a - m.v_b, n) + growth;
-    return approach > std::max(strike, approach_rounding<Real>(m.v_a, m.v_b, n)) ? time : no_impact;
+    return approach > std::max(strike, surface_rounding(a, b, m, n)) ? time : no_impact;
 }
 
 /// The same at a wall, for a time of impact `time` s after the body's own.
@@ -174,10 +182,11 @@ bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall
     const Motion<Real>& m = state.bodies.motion[body];
     const Vec3 v = velocity_of(m);
     const Vec3 normal = state.bounds.normal(wall, m.x, v * time, state.resolution);
-    const Vec3 u = Bounds::velocity(wall, m.x, v * time, m.t + time);
+    const double growth = growth_of(state.bodies, body);
+    const Vec3 u = Bounds::velocity(wall, m.x, v * time, m.t + time) - normal * growth;
     const double load = load_on(state.bodies, body);
     const double strike = striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
-    return dot(v - u, normal) + growth_of(state.bodies, body) > std::max(strike, approach_rounding<Real>(v, u, normal));
+    return dot(v - u, normal) > std::max(strike, approach_rounding<Real>(v, u, normal));
 }
 
 } // namespace
@@ -252,7 +261,7 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
     if (gap > state.resolution.metres || time > horizon) return m.t + time;
     // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.
     const Vec3 n = state.bounds.normal(face, m.x, {}, state.resolution);
-    if (std::abs(dot(relative, n) + growth) > approach_rounding<Real>(v, u, n)) return m.t + time;
+    if (std::abs(dot(relative, n) + growth) > approach_rounding<Real>(v, u - n * growth, n)) return m.t + time;
     const Support support = support_by_wall(state, wall, n, m, growth);
     const double pressing = pressure_on(state, m, bodies.slot[body], support, relative).acceleration;
     if (std::max(pressing, dot(a - support.acceleration, n)) > 0) return m.t;
