@@ -37,6 +37,8 @@ LAYERS = {
     "src/observe": ("collision",),
     "src/scene": ("collision",),
     "src/validate": ("collision", "scene"),
+    "apps/viewer/render": (),
+    "apps/viewer": ("collision", "scene"),
     "apps/carom": ("scene", "validate"),
 }
 SRC_FOLDERS = ("collision", "space", "contact", "impact", "world", "observe", "scene", "validate")
@@ -75,7 +77,7 @@ def own_dependencies(name):
         current = waiting.pop()
         found.add(current)
         for _, included in includes(current):
-            for folder in ("include", "src", "tests", os.path.dirname(current)):
+            for folder in ("include", "src", "apps", "tests", os.path.dirname(current)):
                 path = os.path.normpath(os.path.join(folder, included))
                 if path not in found and (ROOT / path).is_file():
                     waiting.append(path)

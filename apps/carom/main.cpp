@@ -18,7 +18,7 @@ constexpr const char* exit_codes = R"(Exit codes:
   0    fine; diff: no difference; validate: every row passes
   1    failed at run time, for example because the disk is full; diff: there is a difference; validate: a row fails
   2    bad usage, scene or input file: the message says what is allowed
-  130  run was interrupted by Ctrl-C, 143 by SIGTERM; what it had computed is saved
+  130  interrupted by Ctrl-C, 143 by SIGTERM; what run had computed is saved, render writes nothing
 )";
 
 int report(const std::string& message, int exit_code) {
@@ -31,8 +31,9 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const auto commands = app.get_subcommands();
     if (commands.empty()) {
-        return report("a command is required: run, bench, validate, info or diff\ncarom: try 'carom --help'",
-                      carom::cli::bad_usage);
+        return report(
+            "a command is required: run, bench, validate, view, render, info or diff\ncarom: try 'carom --help'",
+            carom::cli::bad_usage);
     }
     return report(fmt::format("{}\ncarom: try 'carom {} --help'", error.what(), commands.front()->get_name()),
                   carom::cli::bad_usage);
@@ -47,6 +48,8 @@ int run(int argc, char** argv) {
     carom::cli::add_run_command(app, exit_code);
     carom::cli::add_bench_command(app, exit_code);
     carom::cli::add_validate_command(app, exit_code);
+    carom::cli::add_view_command(app, exit_code);
+    carom::cli::add_render_command(app, exit_code);
     carom::cli::add_info_command(app, exit_code);
     carom::cli::add_diff_command(app, exit_code);
     try {

@@ -49,8 +49,8 @@ std::string clock_text(double seconds) {
     return fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
-Progress::Progress(std::uint64_t first, std::uint64_t total)
-    : first_(first), total_(total), on_terminal_(stderr_is_terminal()), start_(Clock::now()),
+Progress::Progress(std::uint64_t first, std::uint64_t total, const char* unit)
+    : first_(first), total_(total), unit_(unit), on_terminal_(stderr_is_terminal()), start_(Clock::now()),
       next_showing_(start_ + (on_terminal_ ? Clock::duration(between_bars) : Clock::duration(between_lines))) {}
 
 Progress::~Progress() {
@@ -66,7 +66,7 @@ void Progress::update(std::uint64_t step, double time, std::uint64_t impacts) {
         show_bar(done, text);
         next_showing_ = now + between_bars;
     } else {
-        fmt::print(stderr, "{:3.0f} %  step {} of {}  {}\n", 100 * done, step, total_, text);
+        fmt::print(stderr, "{:3.0f} %  {} {} of {}  {}\n", 100 * done, unit_, step, total_, text);
         next_showing_ = now + between_lines;
     }
 }
@@ -75,7 +75,7 @@ std::string Progress::status(std::uint64_t step, double time, std::uint64_t impa
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     const double rate = static_cast<double>(step - first_) / std::max(seconds, 1e-9);
     const double left = rate > 0 ? static_cast<double>(total_ - step) / rate : 0;
-    return fmt::format("t = {:.4g} s  {} steps/s  {} impacts  {} left", time, short_number(rate),
+    return fmt::format("t = {:.4g} s  {} {}s/s  {} impacts  {} left", time, short_number(rate), unit_,
                        short_number(static_cast<double>(impacts)), clock_text(left));
 }
 

@@ -11,8 +11,8 @@ namespace carom::cli {
 
 class Progress {
 public:
-    /// `first` steps of `total` were done by earlier parts of the run.
-    Progress(std::uint64_t first, std::uint64_t total);
+    /// `first` steps of `total` were done by earlier parts of the run. `unit` is what a step is called.
+    Progress(std::uint64_t first, std::uint64_t total, const char* unit = "step");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -28,6 +28,7 @@ private:
 
     std::uint64_t first_;
     std::uint64_t total_;
+    const char* unit_;
     bool on_terminal_;
     bool bar_shown_ = false;
     Clock::time_point start_;

@@ -33,6 +33,16 @@ struct Contact {
     Vec3 friction{};        ///< N across the normal on b, or on the face; a gets the opposite
 };
 
+/// A Contact began in the last step, or ended. One that began and ended in it is told of by neither.
+struct ContactChange {
+    BodyId a{};             ///< as in Contact
+    BodyId b{};             ///< not set where it is a face
+    std::int32_t face = -1; ///< index of the face, -1 between bodies
+    bool has_begun = false; ///< else it has ended
+
+    friend bool operator==(const ContactChange&, const ContactChange&) = default;
+};
+
 /// Wall-clock seconds that the phases of a step took.
 struct PhaseTimes {
     double forces = 0;   ///< kicks of drag and attractors, contacts of held bodies
@@ -55,6 +65,7 @@ struct StepReport {
     std::uint64_t predictions = 0;    ///< times of impact computed
     std::uint64_t tc_conversions = 0; ///< impacts made elastic by the TC rule against inelastic collapse
     std::uint64_t held = 0;           ///< bodies that something carries, at the end: see World::held()
+    std::uint64_t asleep = 0;         ///< of these, bodies that have lain still for long
     std::uint64_t contacts = 0;       ///< what carries them: pairs that touch, or a body and a face, at the end
     std::uint32_t pieces = 0;     ///< that contacts between moving bodies had the step cut into; 0 if there were none
     std::uint32_t windows = 0;    ///< that the impacts had it cut into

@@ -73,4 +73,26 @@ struct Shell {
 /// What bounds a world: nothing, a box, up to 64 planes, or a shell.
 using Region = std::variant<OpenSpace, Box, std::vector<Plane>, Shell>;
 
+/// What a segment sweeps as it turns round an axis: the wall of a cylinder, of a cone or a funnel, or a disc. It has no
+/// thickness, and bodies touch it from both sides, its rims too.
+struct Frustum {
+    Vec3 base{};            ///< m, centre of the circle at the base
+    Vec3 axis{0, 0, 1};     ///< from there to the top; any length but zero, only the direction counts
+    double height = 1;      ///< m, >= 0; 0: a disc or a ring
+    double base_radius = 1; ///< m, >= 0
+    double top_radius = 1;  ///< m, >= 0: the base's for a cylinder, 0 for a cone. The two circles are not one.
+    Surface surface{};
+};
+
+/// Triangles without thickness, which bodies touch from both sides, closed or not. Triangles that have corners at the
+/// same place are joined there: a body passes over their common edge as over what they make together.
+struct Mesh {
+    std::vector<Vec3> vertices{};                          ///< m
+    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< each three indices of vertices, not in one line
+    Surface surface{};
+};
+
+/// What stands in a world and never moves.
+using Obstacle = std::variant<Frustum, Mesh>;
+
 } // namespace carom

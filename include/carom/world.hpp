@@ -40,6 +40,9 @@ struct Attractor {
 struct WorldOptions {
     Vec3 gravity{};  ///< m/s^2, uniform
     Region region{}; ///< what bounds the world; open space by default
+    /// What stands in it. Impact::face counts obstacles on from the faces of the region: from 6 in a box, from the
+    /// number of planes, from 1 in a shell, from 0 in open space. Not together with periodic faces.
+    std::vector<Obstacle> obstacles{};
     Precision precision = Precision::double_precision;
     /// m, a power of two; 0 means 2^-40 m in double (a world of +-8e6 m) and 2^-20 m in single (+-8e12 m).
     double resolution = 0;
@@ -49,6 +52,9 @@ struct WorldOptions {
     std::vector<MaterialRule> material_rules{};
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;
+    /// Piles that have lain still for half a second fall asleep, each for itself: they cost next to nothing until
+    /// something meets them. What is slower than 1/1000 of gravity times rest_time lies still.
+    bool sleeping = true;
     /// s, > 0: TC rule. After 8 impacts with flights shorter than this, further ones are elastic until a longer flight.
     /// Under gravity also how long bodies touch that lean on each other; longer where the resolution asks for it.
     double collapse_time = 1e-5;
@@ -61,6 +67,7 @@ struct WorldOptions {
     /// Threads that a step may use; 0: one for each core. No result depends on it.
     unsigned threads = 0;
     bool record_impacts = true;
+    bool record_contacts = false;      ///< keep what World::contact_changes() tells
     double least_recorded_impulse = 0; ///< N s, >= 0: weaker impacts happen but are not recorded
     /// Keep each body's position at the start of the last step, for positions_at. Costs 24 bytes a body.
     bool interpolation = false;
@@ -134,6 +141,9 @@ public:
     /// face or a static body is the sum of `force * normal + friction` over its contacts. Takes O(contacts log
     /// contacts).
     [[nodiscard]] std::vector<Contact> contacts() const;
+    /// Contacts that began or ended in the last step, in the order of (a, then b, then faces); valid until the next
+    /// step. What the caller has changed or removed before it ends without a word. Needs WorldOptions::record_contacts.
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept;
     /// Positions (m) at `time` inside the last step, on the straight line between its two ends (across a periodic
     /// face the short way): for drawing between steps. Needs WorldOptions::interpolation.
     void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace carom::core {
 
@@ -26,14 +27,18 @@ constexpr double rate_per_ratio = 2;
 constexpr double most_rate = 1e5;
 constexpr double most_pieces = 1e6;
 
-/// s that contacts are listed for.
+/// s that contacts are listed for, at least: a body that moves too far meanwhile looks for impacts itself, and meets no
+/// contacts that it does not have.
 constexpr double list_life = 1.0 / 60;
 
-/// The lower of two neighbouring cells along an axis, of which a periodic one has `turn`.
-std::uint32_t lower_cell(std::uint32_t a, std::uint32_t b, std::uint32_t turn) {
-    const bool is_around = turn > 2 && std::max(a, b) - std::min(a, b) == turn - 1;
-    return is_around ? std::max(a, b) : std::min(a, b);
+template <class Real>
+Vector3<Real> to_real(const Vec3& v) {
+    return rounded<Real>(v);
 }
+Vec3 to_double(const Vector3<float>& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+Vec3 to_double(const Vec3& v) { return v; }
 
 } // namespace
 
@@ -48,6 +53,7 @@ auto Pile<Real>::wanted_rates() const -> Rates {
     double most_stretched = 0; // 1/s^2
     double most_heavy = 0;     // mass of an upper body, in masses of the lower one
     for (const ContactForce& force : state_.bodies.contacts) {
+        if (!(force.normal > 0)) continue;
         const Index a = state_.bodies.slots[force.a];
         const auto mass = static_cast<double>(state_.bodies.mass[a]);
         auto reach = 2 * static_cast<double>(state_.bodies.motion[a].radius);
@@ -84,151 +90,453 @@ Pieces Pile<Real>::cut(double duration) {
     return {duration, static_cast<std::uint32_t>(std::ceil(pieces))};
 }
 
+/// What is found anew in each step: where bodies are in memory, and who was let go since.
 template <class Real>
 void Pile<Real>::begin_step() {
     clear_for_reuse(released_);
-    clear_for_reuse(contacts_);
-    listed_until_ = 0;
-    if (leaners_.empty() && state_.bodies.contacts.empty()) return;
-    leaners_.clear();
-    // Whatever is piled is to be gathered anew: bodies may have gone, or changed places in memory.
-    state_.bodies.newly_piled = true;
+    clear_for_reuse(untold_);
+    has_values_ = false;
+    bearing_ = 0;
+    solver_ = &group_solver<Real>();
+    constexpr double still_part = 1e-3;
+    still_speed_ = still_part * length(state_.laws.gravity) * state_.laws.rest_time;
+    told_speed_ = 0.5 * striking_speed(0, 0, state_.laws);
+    far_ = 0.5 * state_.bodies.list_margin;
+    if (!is_active()) return;
+    state_.bodies.loads.assign(state_.bodies.size(), {});
+    if (!state_.bodies.listed.empty()) resume_list();
 }
 
 template <class Real>
 void Pile<Real>::begin_piece(double from, double to) {
     clear_for_reuse(released_);
-    const bool is_listed = from < listed_until_ && (!state_.bodies.newly_piled || take_back(from));
-    if (!is_listed && !contacts_.empty()) keep_forces();
+    clear_for_reuse(untold_);
+    Bodies<Real>& bodies = state_.bodies;
+    // Until then bodies may come near each other that have no contact in the list, but touch only just.
+    const double life = std::min(list_life, bodies.list_margin / unlisted_approach());
+    const bool is_outdated = bodies.listed.empty() || ((has_far_ || is_driven()) && bodies.list_age >= life);
+    now_ = from;
+    if (is_outdated || (bodies.newly_piled && !take_back(from))) start_list(from);
     piece_ = to - from;
-    if (!is_listed) start_list(from);
-    if (leaners_.empty()) return;
-    take_velocities(state_.laws.gravity * piece_);
-    warm_up();
+    if (bodies.listed.empty()) return;
+    if (!has_values_) start_values();
+    bodies.list_age += piece_;
     constexpr double swing = 2 * std::numbers::pi * stiffness; // in a piece
     constexpr double damped = 2 * damping_ratio + swing;
     constexpr double a = swing * damped;
-    const Softness soft{.rate = swing / (damped * piece_), .mass = a / (1 + a), .impulse = 1 / (1 + a)};
-    pass([this, &soft](std::uint32_t k) { return solve(contacts_[k], soft); });
-    put_velocities();
-    enter_loads();
+    const Softness<Real> soft{.rate = static_cast<Real>(swing / (damped * piece_)),
+                              .mass = static_cast<Real>(a / (1 + a)),
+                              .impulse = static_cast<Real>(1 / (1 + a)),
+                              .frequency = static_cast<Real>(1 / piece_)};
+    set_out();
+    pass([&](const ContactRun<Real>& run) { return solver_->solve_softly(run, soft); });
+    book_driven(-1);
+    go();
 }
 
 template <class Real>
 void Pile<Real>::end_piece(double at) {
-    if (leaners_.empty()) return;
-    advance_all(at);
-    take_velocities({});
-    pass([this](std::uint32_t k) {
-        measure(k);
-        return solve(contacts_[k], {});
-    });
-    put_velocities();
-    release_unsupported();
+    if (state_.bodies.listed.empty() || !has_values_) return;
+    now_ = at;
+    arrive(at);
+    measure_walls();
+    close_contacts();
+    book_driven(1);
+    pass([&](const ContactRun<Real>& run) { return solver_->solve_hard(run, static_cast<Real>(1 / piece_)); });
+    book_driven(-1);
+    note_carried();
+    come_to_rest();
 }
 
 template <class Real>
 void Pile<Real>::end_step(double reached) {
-    keep_forces();
-    settle_accounts();
-    if (state_.bodies.newly_piled) {
-        gather();
-        advance_all(reached);
-        settle_accounts();
+    Bodies<Real>& bodies = state_.bodies;
+    state_.books.held_mass_time.add(asleep_mass() * reached);
+    if (has_values_) {
+        keep_forces();
+        fall_asleep(reached);
     }
-    state_.bodies.loads.clear();
+    if (bodies.newly_piled) advance_newcomers(reached);
+    settle_accounts();
+    bearing_ += bodies.sleeping.size();
+    bodies.loads.clear();
+    if (!is_listed_) return;
+    const bool is_over = std::all_of(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(bodies.listed.size()),
+                                     [](std::uint8_t marks) { return (marks & gone) != 0; });
+    if (!is_over) return;
+    bodies.listed.clear();
+    bodies.contacts.clear();
+    is_listed_ = false;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// The list of contacts
+// The list
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
 void Pile<Real>::start_list(double from) {
+    Bodies<Real>& bodies = state_.bodies;
+    if (has_values_) keep_forces();
     settle_accounts();
-    gather();
-    clear_for_reuse(contacts_);
-    if (leaners_.empty()) return;
-    advance_all(from);
-    for (Leaner& l : leaners_) {
-        l.listed = state_.bodies.motion[l.body].x;
-        l.moved = {};
-    }
-    listed_until_ = from + list_life;
-    // In that time, pairs that are no impacts approach by no more than this.
-    const double gravity = length(state_.laws.gravity);
-    margin_ = (2 * told_speed() + gravity * list_life) * list_life + 4 * state_.resolution.metres +
-              2 * state_.bodies.top_growth * list_life;
-    find_contacts();
-    assign_cells();
-    sort_contacts();
-    recall_forces();
-    measure_all();
+    has_values_ = false;
+    clear_for_reuse(closed_);
+    wake_islands();
+    do {
+        settle_accounts();
+        gather();
+        if (bodies.listed.empty()) return;
+        for_each_leaner([&](Findings&, std::size_t k) {
+            advance_leaner(k, from);
+            bodies.listed[k].x = bodies.motion[bodies_[k]].x;
+        });
+        bodies.list_margin = wanted_margin();
+        far_ = 0.5 * bodies.list_margin;
+        list_.find(*executor_, bodies.list_margin, from);
+    } while (wake_neighbours());
+    is_listed_ = true;
+    bodies.list_age = 0;
+}
+
+/// m. A list ends when a body has moved by half of this: the more, the longer it lasts; but the more of its contacts
+/// bear nothing. Small bodies have no room for much.
+template <class Real>
+double Pile<Real>::wanted_margin() const {
+    constexpr double lives = 2;
+    constexpr double part_of_radius = 0.2;
+    ExactSum radii; // the same in any order
+    for (const Index body : bodies_) radii.add(static_cast<double>(state_.bodies.motion[body].radius));
+    const double mean_radius = radii.value() / static_cast<double>(bodies_.size());
+    return std::min(lives * list_life * unlisted_approach(), part_of_radius * mean_radius) +
+           4 * state_.resolution.metres;
+}
+
+/// m/s, the fastest approach of bodies that is no impact.
+template <class Real>
+double Pile<Real>::unlisted_approach() const {
+    return 2 * told_speed_ + length(state_.laws.gravity) * list_life + 2 * state_.bodies.top_growth;
+}
+
+/// Whether anything moves as prescribed, so that a list does not last.
+template <class Real>
+bool Pile<Real>::is_driven() const {
+    const Bodies<Real>& bodies = state_.bodies;
+    return state_.bounds.any_driven() || !bodies.kinematics.empty() || bodies.top_growth != 0;
 }
 
 template <class Real>
 void Pile<Real>::gather() {
     Bodies<Real>& bodies = state_.bodies;
-    leaners_.clear();
-    statics_.clear();
-    places_.assign(bodies.size(), nobody);
+    still_.assign(bodies.slots.size(), 0);
+    for (const ListedBody& l : bodies.listed) still_[l.slot] = l.still;
+    bodies.listed.clear();
+    clear_for_reuse(bodies_);
     bodies.loads.assign(bodies.size(), {});
     for (Index i = 0; i < bodies.size(); ++i) {
-        if (is_prescribed(bodies.kind[i])) statics_.push_back(i);
         if (bodies.kind[i] != Kind::piled) continue;
-        places_[i] = static_cast<std::uint32_t>(leaners_.size());
-        leaners_.push_back({.body = i, .inverse_mass = 1 / static_cast<double>(bodies.mass[i])});
+        bodies_.push_back(i);
+        bodies.listed.push_back({.slot = bodies.slot[i], .still = still_[bodies.slot[i]]});
     }
-    accounts_.assign(leaners_.size(), {});
+    accounts_.assign(bodies_.size(), {});
+    marks_.assign(bodies_.size(), 0);
     bodies.newly_piled = false;
+}
+
+/// Goes on with the list that the state tells of.
+template <class Real>
+void Pile<Real>::resume_list() {
+    Bodies<Real>& bodies = state_.bodies;
+    if (!is_listed_) {
+        clear_for_reuse(closed_);
+        list_.recall(bodies.list_margin);
+    }
+    is_listed_ = true;
+    bodies_.resize(bodies.listed.size());
+    marks_.assign(list_.movers(), 0);
+    places_.assign(list_.movers(), {});
+    accounts_.assign(bodies_.size(), {});
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        bodies_[k] = bodies.slots[bodies.listed[k].slot];
+        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = gone;
+    }
+    has_far_ = false;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        if ((marks_[k] & gone) != 0) continue;
+        place(k);
+        has_far_ = has_far_ || is_far(k);
+    }
 }
 
 /// Takes bodies back that were let go, and soon came to lean again; false if any is piled that the list does not do
 /// for.
 template <class Real>
 bool Pile<Real>::take_back(double from) {
-    const Bodies<Real>& bodies = state_.bodies;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] != Kind::piled) continue;
-        if (places_[i] == nobody) return false;
-        Leaner& l = leaners_[places_[i]];
-        if (!l.is_gone) continue;
-        Entry entry;
-        advance(state_, i, from, entry);
-        add_to_account(places_[i], entry);
-        l.moved = to_metres(bodies.motion[i].x - l.listed, state_.resolution);
-        l.way = length(l.moved);
-        if (l.way > margin_ / 2) return false;
-        l.is_gone = false;
-        l.before = velocity_of(bodies.motion[i]);
+    Bodies<Real>& bodies = state_.bodies;
+    clear_for_reuse(returned_);
+    std::size_t listed = 0;
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+        if (bodies.kind[bodies_[k]] != Kind::piled) continue;
+        ++listed;
+        if ((marks_[k] & gone) == 0) continue;
+        const Motion<Real>& m = bodies.motion[bodies_[k]];
+        const double moved = length(to_metres(m.x - bodies.listed[k].x, state_.resolution));
+        if (moved + length(velocity_of(m)) * (from - m.t) > far_) return false;
+        returned_.push_back(k);
     }
-    state_.bodies.newly_piled = false;
-    measure_all();
+    const auto piled = std::count(bodies.kind.begin(), bodies.kind.end(), Kind::piled);
+    if (listed != static_cast<std::size_t>(piled)) return false;
+    bodies.newly_piled = false;
+    if (returned_.empty()) return true;
+    if (has_values_) {
+        keep_forces();
+        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
+    }
+    has_values_ = false;
+    for (const std::uint32_t k : returned_) {
+        marks_[k] = 0;
+        advance_leaner(k, from);
+    }
     return true;
 }
 
+/// Looks where the bodies are, and takes up the forces.
 template <class Real>
-void Pile<Real>::add_to_account(std::uint32_t leaner, const Entry& entry) {
-    accounts_[leaner].lost += entry.lost_to_restitution;
-    accounts_[leaner].held_mass_time += entry.held_mass_time;
-}
-
-template <class Real>
-void Pile<Real>::measure_all() {
-    for_each_in_parts(*executor_, contacts_.size(), contact_grain,
-                      [this](std::size_t, std::size_t k) { measure(static_cast<std::uint32_t>(k)); });
-}
-
-template <class Real>
-void Pile<Real>::advance_all(double at) {
-    now_ = at;
-    for_each_leaner([&](std::size_t, std::size_t k) {
-        Leaner& l = leaners_[k];
-        Entry entry;
-        advance(state_, l.body, at, entry);
-        add_to_account(static_cast<std::uint32_t>(k), entry);
-        l.moved = to_metres(state_.bodies.motion[l.body].x - l.listed, state_.resolution);
+void Pile<Real>::start_values() {
+    const std::size_t leaners = bodies_.size();
+    least_strike_ = striking_speed(list_.largest_restitution(), 0, state_.laws);
+    entered_.resize(leaners);
+    shares_.resize(leaners);
+    movers_.assign(list_.movers(), {});
+    places_.assign(list_.movers(), {});
+    carried_.assign(list_.movers(), 0);
+    pressings_.assign(list_.movers(), 0);
+    marks_.resize(list_.movers(), 0);
+    losses_.resize(list_.bundles());
+    for_each_leaner([&](Findings& findings, std::size_t k) {
+        movers_[k] = {state_.bodies.motion[bodies_[k]].v, 1 / state_.bodies.mass[bodies_[k]]};
+        entered_[k] = movers_[k].v;
+        place(k);
+        if (mark(k)) findings.has_fast = true;
+        if (is_far(k)) findings.has_far = true;
     });
+    collect(untold_);
+    measure_walls();
+    recall_forces();
+    close_contacts();
+    list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->measure(run_of(groups)); });
+    for_each_leaner([&](Findings&, std::size_t k) { movers_[k].v = {}; });
+    list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->warm_up(run_of(groups)); });
+    for_each_leaner([&](Findings&, std::size_t k) { shares_[k] = movers_[k].v; });
+    note_pressings();
+    has_values_ = true;
+}
+
+/// Gives the contacts the impulses that their forces come to in a piece.
+template <class Real>
+void Pile<Real>::recall_forces() {
+    const std::vector<ContactForce>& forces = state_.bodies.contacts;
+    const std::span<const ContactName> names = list_.names();
+    const auto take = [this](const ContactName& name, const ContactForce& force) {
+        ContactGroup<Real>& group = list_.group_of(name);
+        group.impulse[name.lane()] = static_cast<Real>(force.normal * piece_);
+        for (int axis = 0; axis < 3; ++axis) {
+            group.rub[static_cast<std::size_t>(axis)][name.lane()] =
+                static_cast<Real>(component(force.friction, axis) * piece_);
+        }
+    };
+    const auto is_of = [](const ContactName& name, const ContactForce& force) {
+        return name.slot == force.a && name.code == force.code;
+    };
+    if (std::equal(names.begin(), names.end(), forces.begin(), forces.end(), is_of)) {
+        for (std::size_t k = 0; k < names.size(); ++k) take(names[k], forces[k]);
+        return;
+    }
+    // By body a: where its forces begin, once they are in order.
+    first_forces_.assign(state_.bodies.slots.size() + 1, 0);
+    for (const ContactForce& force : forces) ++first_forces_[force.a + 1];
+    for (std::size_t k = 1; k < first_forces_.size(); ++k) first_forces_[k] += first_forces_[k - 1];
+    force_order_.resize(forces.size());
+    for (std::uint32_t k = 0; k < forces.size(); ++k) force_order_[first_forces_[forces[k].a]++] = k;
+    for (const ContactName& name : names) {
+        // The list of a body ends where it was counted up to.
+        const std::uint32_t begin = name.slot == 0 ? 0 : first_forces_[name.slot - 1];
+        for (std::uint32_t i = begin; i < first_forces_[name.slot]; ++i) {
+            if (is_of(name, forces[force_order_[i]])) take(name, forces[force_order_[i]]);
+        }
+    }
+}
+
+template <class Real>
+void Pile<Real>::keep_forces() {
+    std::vector<ContactForce>& forces = state_.bodies.contacts;
+    const std::span<const ContactName> names = list_.names();
+    forces.resize(names.size());
+    std::array<std::size_t, most_parts> bearing{};
+    for_each_in_parts(*executor_, names.size(), contact_grain, [&](std::size_t part, std::size_t k) {
+        const ContactName& name = names[k];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        const auto force = [&](Real impulse) { return static_cast<double>(impulse) / piece_; };
+        const bool is_gone = (marks_[group.a[lane]] & gone) != 0;
+        ContactForce& kept = forces[k] = {.a = name.slot, .code = name.code};
+        if (is_gone || !(group.impulse[lane] > 0)) return;
+        kept.normal = force(group.impulse[lane]);
+        kept.friction = {force(group.rub[0][lane]), force(group.rub[1][lane]), force(group.rub[2][lane])};
+        ++bearing[part];
+    });
+    bearing_ = 0;
+    for (const std::size_t count : bearing) bearing_ += count;
+}
+
+/// Notes how the strongest contact of each body presses it, as each hard pass does.
+template <class Real>
+void Pile<Real>::note_pressings() {
+    const auto frequency = static_cast<Real>(1 / piece_);
+    list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
+        const auto press = [&](std::uint32_t mover, Real impulse) {
+            pressings_[mover] = std::max(pressings_[mover], impulse * movers_[mover].inverse_mass * frequency);
+        };
+        for (const ContactGroup<Real>& group : groups) {
+            for (std::size_t lane = 0; lane < group_size; ++lane) {
+                press(group.a[lane], group.impulse[lane]);
+                press(group.b[lane], group.impulse[lane]);
+            }
+        }
+    });
+}
+
+/// Brings bodies that have just come to lean, and are in no list yet, to the end of the step.
+template <class Real>
+void Pile<Real>::advance_newcomers(double at) {
+    for (Index i = 0; i < state_.bodies.size(); ++i) {
+        if (state_.bodies.kind[i] != Kind::piled || state_.bodies.motion[i].t == at) continue;
+        Entry entry;
+        advance(state_, i, at, entry);
+        accounts_.push_back({.lost = entry.lost_to_restitution, .held_mass_time = entry.held_mass_time});
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Sleep
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Bodies with contacts to each other, listed ones that bear nothing among them, are an island. It falls asleep when
+/// all of it has lain still for long: looked for ten times a second, or in each step where lists last no longer.
+template <class Real>
+void Pile<Real>::fall_asleep(double reached) {
+    constexpr double long_enough = 0.5;
+    constexpr double looks = 10;
+    Bodies<Real>& bodies = state_.bodies;
+    const bool is_due =
+        is_driven() || std::floor(bodies.list_age * looks) != std::floor((bodies.list_age - reached) * looks);
+    if (!is_due || !state_.laws.sleeping || !state_.laws.fields.empty() || bodies.newly_piled) return;
+    if (state_.bounds.any_driven() || bodies.top_growth != 0) return;
+    const auto sleeps = [](const ListedBody& l) { return l.still >= long_enough; };
+    if (std::none_of(bodies.listed.begin(), bodies.listed.end(), sleeps)) return;
+    islands_.start(bodies_.size());
+    for (const ContactName& name : list_.names()) {
+        const ContactGroup<Real>& group = list_.group_of(name);
+        if (group.b[name.lane()] < bodies_.size()) islands_.unite(group.a[name.lane()], group.b[name.lane()]);
+    }
+    wakeful_.assign(bodies_.size(), false);
+    for (const std::uint32_t number : list_.driven()) {
+        const ContactName& name = list_.names()[number];
+        wakeful_[islands_.root(list_.group_of(name).a[name.lane()])] = true;
+    }
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+        if ((marks_[k] & gone) != 0 || !sleeps(bodies.listed[k])) wakeful_[islands_.root(k)] = true;
+    }
+    bool sleeps_any = false;
+    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+        if (wakeful_[islands_.root(k)]) continue;
+        sleeps_any = true;
+        enter(k, {});
+        bodies.motion[bodies_[k]].v = {};
+        bodies.kind[bodies_[k]] = Kind::asleep;
+    }
+    if (sleeps_any) leave_sleepers();
+}
+
+/// Takes those who have fallen asleep off the list.
+template <class Real>
+void Pile<Real>::leave_sleepers() {
+    Bodies<Real>& bodies = state_.bodies;
+    settle_accounts();
+    const auto is_asleep = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]] == Kind::asleep; };
+    for (const ContactForce& force : bodies.contacts) {
+        if (is_asleep(force.a) && force.normal > 0) bodies.sleeping.push_back(force);
+    }
+    std::erase_if(bodies.contacts, [&](const ContactForce& force) { return is_asleep(force.a); });
+    std::erase_if(bodies.listed, [&](const ListedBody& l) { return is_asleep(l.slot); });
+    bearing_ = static_cast<std::size_t>(std::count_if(bodies.contacts.begin(), bodies.contacts.end(),
+                                                      [](const ContactForce& force) { return force.normal > 0; }));
+    if (bodies.listed.empty()) bodies.contacts.clear();
+    is_listed_ = has_values_ = false;
+    asleep_mass_.reset();
+}
+
+/// Wakes the islands of those who have been woken, or who are gone.
+template <class Real>
+void Pile<Real>::wake_islands() {
+    Bodies<Real>& bodies = state_.bodies;
+    if (bodies.sleeping.empty()) return;
+    const auto kind_of = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]]; };
+    const auto has_other = [&](const ContactForce& force) {
+        return (force.code & Support::wall_bit) == 0 && kind_of(force.code) != Kind::fixed;
+    };
+    islands_.start(bodies.slots.size());
+    for (const ContactForce& force : bodies.sleeping) {
+        if (has_other(force)) islands_.unite(force.a, force.code);
+    }
+    wakeful_.assign(bodies.slots.size(), false);
+    const auto note = [&](std::uint32_t slot) {
+        if (kind_of(slot) != Kind::asleep) wakeful_[islands_.root(slot)] = true;
+    };
+    for (const ContactForce& force : bodies.sleeping) {
+        note(force.a);
+        if (has_other(force)) note(force.code);
+    }
+    const auto wakes = [&](const ContactForce& force) { return wakeful_[islands_.root(force.a)]; };
+    for (const ContactForce& force : bodies.sleeping) {
+        if (!wakes(force)) continue;
+        wake(bodies, bodies.slots[force.a]);
+        if (has_other(force)) wake(bodies, bodies.slots[force.code]);
+        bodies.contacts.push_back(force);
+    }
+    std::erase_if(bodies.sleeping, wakes);
+    asleep_mass_.reset();
+}
+
+/// Wakes the islands that the list has found near those who are awake; whether there were any.
+template <class Real>
+bool Pile<Real>::wake_neighbours() {
+    Bodies<Real>& bodies = state_.bodies;
+    bool finds_any = false;
+    for (const ContactName& name : list_.names()) {
+        if (!name.is_wall()) finds_any = wake(bodies, bodies.slots[name.code]) || finds_any;
+    }
+    if (finds_any) wake_islands();
+    return finds_any;
+}
+
+/// kg, of those who are asleep: what gravity gives them, what they lie on takes.
+template <class Real>
+double Pile<Real>::asleep_mass() {
+    const Bodies<Real>& bodies = state_.bodies;
+    if (bodies.sleeping.empty()) return 0;
+    if (asleep_mass_ && asleep_ == asleep()) return *asleep_mass_;
+    ExactSum sum; // the same in any order
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (bodies.kind[i] == Kind::asleep) sum.add(static_cast<double>(bodies.mass[i]));
+    }
+    asleep_ = asleep();
+    asleep_mass_ = sum.value();
+    return *asleep_mass_;
+}
+
+template <class Real>
+std::size_t Pile<Real>::asleep() const {
+    const std::vector<Kind>& kinds = state_.bodies.kind;
+    return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), Kind::asleep));
 }
 
 /// Enters into the books what has happened to the bodies since they were gathered: exactly, so that their order in
@@ -242,6 +550,8 @@ void Pile<Real>::settle_accounts() {
         ExactSum held_mass_time;
     };
     if (accounts_.empty()) return;
+    if (has_values_)
+        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
     std::array<Sums, most_parts> sums{};
     for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         sums[part].momentum.add(accounts_[k].momentum);
@@ -265,461 +575,397 @@ void Pile<Real>::settle_accounts() {
     accounts_.clear();
 }
 
-/// Finds all that the piled bodies are nearer to than the margin.
+// ---------------------------------------------------------------------------------------------------------------------
+// Contacts
+// ---------------------------------------------------------------------------------------------------------------------
+
 template <class Real>
-void Pile<Real>::find_contacts() {
-    const Bodies<Real>& bodies = state_.bodies;
-    CensusTaker taker;
-    for (const Leaner& l : leaners_) taker.count(bodies.motion[l.body], Kind::piled);
-    for (const Index i : statics_) taker.count(bodies.motion[i], Kind::fixed);
-    const Census census = taker.census();
-    ticks_ = Ticks(state_.bounds, state_.resolution, std::max(4 * census.mean_radius, state_.resolution.metres));
-    const auto leaning = static_cast<Index>(leaners_.size());
-    const auto body_at = [&](Index k) { return k < leaning ? leaners_[k].body : statics_[k - leaning]; };
-    neighbours_.build(
-        *executor_, leaners_.size() + statics_.size(), ticks_.axes(census),
-        [&](Index k) {
-            const Motion<Real>& m = bodies.motion[body_at(k)];
-            return ticks_.ball(m.x, {}, static_cast<double>(m.radius) + margin_ / 2);
-        },
-        [leaning](Index k) { return k < leaning; });
-    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
-        const auto place = static_cast<Index>(k);
-        neighbours_.for_each(place, [&](Index other) { add_pair(found_[part], body_at(place), body_at(other)); });
-        add_walls(found_[part], place);
+ContactRun<Real> Pile<Real>::run_of(std::span<ContactGroup<Real>> groups) {
+    return {groups, movers_.data(), places_.data(), carried_.data(), pressings_.data(), list_.rubs()};
+}
+
+/// Calls solve(run), which returns the energy (J) that friction took, for all contacts.
+template <class Real>
+template <class F>
+void Pile<Real>::pass(F&& solve) {
+    list_.for_each_bundle(*executor_, [&](std::size_t bundle, std::span<ContactGroup<Real>> groups) {
+        losses_[bundle] = solve(run_of(groups));
     });
-    clear_for_reuse(all_found_);
-    for (std::vector<Found>& found : found_) {
-        all_found_.insert(all_found_.end(), found.begin(), found.end());
-        clear_for_reuse(found);
-    }
+    for (const double loss : losses_) friction_loss_ += loss;
 }
 
+/// Looks how far the walls are.
 template <class Real>
-void Pile<Real>::add_pair(std::vector<Found>& found, Index a, Index b) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    const bool is_static = is_prescribed(bodies.kind[b]);
-    // Of two leaners both have the other in their lists.
-    if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
-    const Motion<Real>& m_a = bodies.motion[a];
-    const Motion<Real>& m_b = bodies.motion[b];
-    const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
-    const Vec3 apart = separation(state_, m_a, m_b, {}, {});
-    if (length(apart) > touching + margin_) return;
-    const Encounter encounter = encounter_of(state_, a, b);
-    found.push_back({{.slot = bodies.slot[a], .code = bodies.slot[b], .restitution = encounter.restitution},
-                     {.a = places_[a],
-                      .b = is_static ? nobody : places_[b],
-                      .apart = apart,
-                      .touching = touching,
-                      .mass = reduced_mass(a, b),
-                      .friction = encounter.friction,
-                      .surface = is_static && (bodies.kind[b] == Kind::kinematic || grows(a, b)) ? 1U : 0U}});
-}
-
-template <class Real>
-double Pile<Real>::reduced_mass(Index a, Index b) const {
-    const auto inverse = [this](Index i) { return 1 / static_cast<double>(state_.bodies.mass[i]); };
-    return 1 / (inverse(a) + inverse(b));
-}
-
-/// Whether one of two bodies grows.
-template <class Real>
-bool Pile<Real>::grows(Index a, Index b) const {
-    return growth_of(state_.bodies, a) != 0 || growth_of(state_.bodies, b) != 0;
-}
-
-/// m, at which the bodies of a contact touch now.
-template <class Real>
-double Pile<Real>::distance_now(std::uint32_t number) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    return radius_at(bodies, leaners_[contacts_[number].a].body, now_) +
-           radius_at(bodies, bodies.slots[names_[number].code], now_);
-}
-
-template <class Real>
-void Pile<Real>::add_walls(std::vector<Found>& found, std::uint32_t a) const {
-    const Index body = leaners_[a].body;
-    const Motion<Real>& m = state_.bodies.motion[body];
-    const auto radius = static_cast<double>(m.radius);
-    if (!state_.bounds.may_touch(m.x, radius + margin_, state_.resolution)) return;
-    for (std::uint32_t k = 0; k < state_.bounds.walls().size(); ++k) {
-        const Bounds::Wall& wall = state_.bounds.walls()[k];
-        if (state_.bounds.gap(wall, m.x, {}, radius, m.t, state_.resolution) > margin_) continue;
-        const Encounter encounter = encounter_of(state_, body, wall);
-        found.push_back(
-            {{.slot = state_.bodies.slot[body], .code = Support::wall_bit | k, .restitution = encounter.restitution},
-             {.a = a,
-              .mass = static_cast<double>(state_.bodies.mass[body]),
-              .friction = encounter.friction,
-              .surface = wall.is_driven || grows(body, body) ? 1U : 0U}});
-    }
-}
-
-/// Puts every leaner into a cell with edges that no contact is longer than.
-template <class Real>
-void Pile<Real>::assign_cells() {
-    const Bodies<Real>& bodies = state_.bodies;
-    CensusTaker taker;
-    double largest = 0;
-    for (const Leaner& l : leaners_) {
-        taker.count(bodies.motion[l.body], Kind::piled);
-        largest = std::max(largest, static_cast<double>(bodies.motion[l.body].radius));
-    }
-    const Census census = taker.census();
-    const auto edge = static_cast<std::uint64_t>((2 * largest + margin_) * state_.resolution.per_metre) + 1;
-    const Vec3& g = state_.laws.gravity;
-    const auto pull = [&g](int axis) { return std::abs(component(g, axis)); };
-    const int up = pull(0) > std::max(pull(1), pull(2)) ? 0 : (pull(1) > pull(2) ? 1 : 2);
-    const std::array<CellAxis, 3> axes{cell_axis((up + 1) % 3, census, edge), cell_axis((up + 2) % 3, census, edge),
-                                       cell_axis(up, census, edge)};
-    const bool is_up_positive = component(g, up) <= 0;
-    turns_ = {axes[0].turn, axes[1].turn};
-    cells_.resize(leaners_.size());
-    for (std::size_t k = 0; k < leaners_.size(); ++k) {
-        const Int3 x = state_.bounds.wrapped(bodies.motion[leaners_[k].body].x);
-        const std::uint32_t along = axes[2].cell_of(x);
-        cells_[k] = {{axes[0].cell_of(x), axes[1].cell_of(x)}, is_up_positive ? along : CellAxis::most - along};
-    }
-}
-
-template <class Real>
-auto Pile<Real>::cell_axis(int axis, const Census& census, std::uint64_t edge) const -> CellAxis {
-    const auto period = static_cast<std::uint64_t>(state_.bounds.period(axis));
-    if (period != 0) {
-        // An even number of cells, or one, so that colours alternate all the way round.
-        const auto turn = std::clamp<std::uint64_t>(period / edge / 2 * 2, 1, CellAxis::most);
-        return {axis, state_.bounds.period_start(axis), period / turn, static_cast<std::uint32_t>(turn)};
-    }
-    const std::uint64_t extent = static_cast<std::uint64_t>(component(census.high, axis)) -
-                                 static_cast<std::uint64_t>(component(census.low, axis));
-    return {axis, component(census.low, axis), std::max(edge, extent / CellAxis::most + 1), 0};
-}
-
-template <class Real>
-auto Pile<Real>::order_of(std::uint32_t number) const -> Order {
-    const auto& [name, contact] = all_found_[number];
-    const Cell& a = cells_[contact.a];
-    const Cell& b = contact.b == nobody ? a : cells_[contact.b];
-    const std::uint64_t first = lower_cell(a.across[0], b.across[0], turns_[0]);
-    const std::uint64_t second = lower_cell(a.across[1], b.across[1], turns_[1]);
-    const std::uint64_t colour = (first & 1U) + 2 * (second & 1U);
-    return {.column = colour << 60U | first << 30U | second,
-            .height = std::min(a.height, b.height),
-            .contact = number,
-            .ids = std::uint64_t{name.slot} << 32U | name.code};
-}
-
-template <class Real>
-void Pile<Real>::sort_contacts() {
-    orders_.resize(all_found_.size());
-    for (std::uint32_t k = 0; k < orders_.size(); ++k) orders_[k] = order_of(k);
-    std::sort(orders_.begin(), orders_.end());
-    surfaces_.resize(1);
-    contacts_.resize(orders_.size());
-    names_.resize(orders_.size());
-    least_strike_ = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < orders_.size(); ++k) {
-        names_[k] = all_found_[orders_[k].contact].name;
-        contacts_[k] = all_found_[orders_[k].contact].contact;
-        if (contacts_[k].surface != 0) {
-            contacts_[k].surface = static_cast<std::uint32_t>(surfaces_.size());
-            surfaces_.emplace_back();
+void Pile<Real>::measure_walls() {
+    const std::span<const std::uint32_t> at_walls = list_.at_walls();
+    for_each_in_parts(*executor_, at_walls.size(), contact_grain, [&](std::size_t, std::size_t k) {
+        const ContactName& name = list_.names()[at_walls[k]];
+        ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        const Motion<Real>& m = state_.bodies.motion[bodies_[group.a[lane]]];
+        if (name.is_driven) return;
+        const Touch touch =
+            state_.bounds.contact(name.wall(), m.x, static_cast<double>(m.radius), now_, state_.resolution);
+        group.gap[lane] = static_cast<Real>(touch.gap);
+        for (int axis = 0; axis < 3; ++axis) {
+            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(touch.normal, axis));
         }
-        least_strike_ = std::min(least_strike_, striking_speed(names_[k].restitution, 0, state_.laws));
-    }
-    clear_for_reuse(columns_);
-    colour_ends_ = {};
-    for (std::uint32_t k = 0; k < orders_.size(); ++k) {
-        if (k == 0 || orders_[k].column != orders_[k - 1].column) columns_.push_back({k, k});
-        columns_.back().end = k + 1;
-        colour_ends_[orders_[k].column >> 60U] = static_cast<std::uint32_t>(columns_.size());
-    }
-    for (std::size_t c = 1; c < colours; ++c) colour_ends_[c] = std::max(colour_ends_[c], colour_ends_[c - 1]);
+    });
+    measure_driven();
 }
 
-/// Gives the contacts the impulses that their forces come to in a piece.
+/// Looks where the surfaces that move as prescribed are, and gives their anchors the velocities of the next piece.
 template <class Real>
-void Pile<Real>::recall_forces() {
-    const std::vector<ContactForce>& forces = state_.bodies.contacts;
-    if (forces.empty()) return;
-    // By body a: where its forces begin, once they are in order.
-    first_forces_.assign(state_.bodies.slots.size() + 1, 0);
-    for (const ContactForce& force : forces) ++first_forces_[force.a + 1];
-    for (std::size_t k = 1; k < first_forces_.size(); ++k) first_forces_[k] += first_forces_[k - 1];
-    force_order_.resize(forces.size());
-    for (std::uint32_t k = 0; k < forces.size(); ++k) force_order_[first_forces_[forces[k].a]++] = k;
-    for_each_in_parts(*executor_, contacts_.size(), contact_grain, [&](std::size_t, std::size_t k) {
-        const ContactName& name = names_[k];
-        // The list of a body ends where it was counted up to.
-        const std::uint32_t begin = name.slot == 0 ? 0 : first_forces_[name.slot - 1];
-        for (std::uint32_t i = begin; i < first_forces_[name.slot]; ++i) {
-            const ContactForce& force = forces[force_order_[i]];
-            if (force.code != name.code) continue;
-            contacts_[k].impulse = force.normal * piece_;
-            contacts_[k].friction_impulse = force.friction * piece_;
+void Pile<Real>::measure_driven() {
+    const std::span<const std::uint32_t> driven = list_.driven();
+    for_each_in_parts(*executor_, driven.size(), contact_grain, [&](std::size_t, std::size_t k) {
+        const ContactName& name = list_.names()[driven[k]];
+        ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        const Touch touch = touch_of(name, bodies_[group.a[lane]]);
+        group.gap[lane] = static_cast<Real>(touch.gap);
+        for (int axis = 0; axis < 3; ++axis) {
+            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(touch.normal, axis));
         }
+        movers_[group.b[lane]].v = surface_velocity(name, touch.normal);
+        marks_[group.b[lane]] = fast;
     });
 }
 
+/// How a body lies on a surface that moves as prescribed, now.
 template <class Real>
-void Pile<Real>::keep_forces() {
-    std::vector<ContactForce>& forces = state_.bodies.contacts;
-    clear_for_reuse(forces);
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-        const Contact& c = contacts_[k];
-        if (!(c.impulse > 0) || leaners_[c.a].is_gone) continue;
-        forces.push_back({names_[k].slot, names_[k].code, c.impulse / piece_, c.friction_impulse / piece_});
-    }
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// Solving them
-// ---------------------------------------------------------------------------------------------------------------------
-
-/// Looks where the bodies of a contact are.
-template <class Real>
-void Pile<Real>::measure(std::uint32_t number) {
-    Contact& contact = contacts_[number];
-    const Leaner& a = leaners_[contact.a];
-    if (a.is_gone || (contact.b != nobody && leaners_[contact.b].is_gone)) {
-        contact.gap = std::numeric_limits<double>::infinity();
-        contact.is_open = true;
-        contact.impulse = 0;
-        return;
-    }
-    const std::uint32_t code = contact.b == nobody ? names_[number].code : 0;
-    if ((code & Support::wall_bit) != 0) {
-        const Motion<Real>& m = state_.bodies.motion[a.body];
-        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
-        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
-        const double growth = growth_of(state_.bodies, a.body);
-        contact.gap = state_.bounds.gap(wall, m.x, {}, radius_at(state_.bodies, a.body, now_), now_, state_.resolution);
-        if (contact.surface != 0) surfaces_[contact.surface] = mean_velocity(wall, m.x) - contact.normal * growth;
-    } else if (contact.surface != 0) {
-        look_at_kinematic(number);
-    } else {
-        const Vec3 delta = contact.apart + (contact.b == nobody ? -a.moved : leaners_[contact.b].moved - a.moved);
-        const double distance = length(delta);
-        contact.normal = distance > 0 ? delta / distance : contact_normal(delta, Vec3{});
-        const bool one_grows = !state_.bodies.growth.empty();
-        contact.gap = distance - (one_grows ? distance_now(number) : contact.touching);
-    }
-    const double approach = approach_of(contact);
-    contact.is_open = contact.gap > 0 && approach > least_strike_ && approach > strike_of(number);
-    if (contact.is_open) contact.impulse = 0;
-    if (contact.friction == 0) return;
-    contact.friction_impulse -= contact.normal * dot(contact.friction_impulse, contact.normal);
-    if (contact.impulse == 0) contact.friction_impulse = {};
-}
-
-/// The same where the other is a kinematic body.
-template <class Real>
-void Pile<Real>::look_at_kinematic(std::uint32_t number) {
-    Contact& contact = contacts_[number];
+Touch Pile<Real>::touch_of(const ContactName& name, Index body) const {
     const Bodies<Real>& bodies = state_.bodies;
-    const Index a = leaners_[contact.a].body;
-    const Index b = bodies.slots[names_[number].code];
-    const Motion<Real>& m = bodies.motion[a];
-    const Motion<Real>& other = bodies.motion[b];
-    const Vec3 delta = separation(state_, m, other, {}, velocity_of(other) * (now_ - other.t));
-    contact.normal = contact_normal(delta, Vec3{});
-    contact.gap = length(delta) - (radius_at(bodies, a, now_) + radius_at(bodies, b, now_));
-    const double growth = growth_of(bodies, a) + growth_of(bodies, b);
-    surfaces_[contact.surface] = velocity_of(other) - contact.normal * growth;
+    const Motion<Real>& m = bodies.motion[body];
+    const double radius = radius_at(bodies, body, now_);
+    if (name.is_wall()) return state_.bounds.contact(name.wall(), m.x, radius, now_, state_.resolution);
+    const Index other = bodies.slots[name.code];
+    const Motion<Real>& m_other = bodies.motion[other];
+    const Vec3 delta = separation(state_, m, m_other, {}, velocity_of(m_other) * (now_ - m_other.t));
+    return {length(delta) - (radius + radius_at(bodies, other, now_)), contact_normal(delta, Vec3{})};
 }
 
-/// m/s, of a wall at a body, over the next piece: the way there is exact, and no swinging wall is taken for another.
+/// m/s, over the next piece. A wall's way in it is exact: no swinging wall is taken for another.
 template <class Real>
-Vec3 Pile<Real>::mean_velocity(const Bounds::Wall& wall, const Int3& x) const {
-    const Vec3 now = Bounds::velocity(wall, x, {}, now_);
+auto Pile<Real>::surface_velocity(const ContactName& name, const Vec3& normal) const -> Vector {
+    const Bodies<Real>& bodies = state_.bodies;
+    const Index body = bodies.slots[name.slot];
+    const Vec3 grown = normal * -growth_of(bodies, body);
+    if (!name.is_wall()) {
+        const Index other = bodies.slots[name.code];
+        return to_real<Real>(velocity_of(bodies.motion[other]) + grown - normal * growth_of(bodies, other));
+    }
+    const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
+    if (!wall.is_driven) return to_real<Real>(grown);
+    const Vec3 now = Bounds::velocity(wall, bodies.motion[body].x, {}, now_);
     const double way = Bounds::offset_at(wall, now_ + piece_) - Bounds::offset_at(wall, now_);
-    return now - wall.normal * (way / piece_ + dot(now, wall.normal));
+    return to_real<Real>(now - wall.normal * (way / piece_ + dot(now, wall.normal)) + grown);
 }
 
-/// m/s, by the velocities that the bodies had before the passes.
+/// Enters, `sign` times, the work of the impulses so far on the surfaces that move as prescribed, at their present
+/// velocities; and notes whom those carry.
 template <class Real>
-double Pile<Real>::approach_of(const Contact& contact) const {
-    const Vec3 other = contact.b == nobody ? surfaces_[contact.surface] : leaners_[contact.b].before;
-    return dot(leaners_[contact.a].before - other, contact.normal);
+void Pile<Real>::book_driven(double sign) {
+    for (const std::uint32_t number : list_.driven()) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        if (!(group.impulse[lane] > 0)) continue;
+        const auto along = [&](std::size_t axis) {
+            return static_cast<double>(group.normal[axis][lane] * group.impulse[lane] + group.rub[axis][lane]);
+        };
+        const Vec3 impulse{along(0), along(1), along(2)};
+        accounts_[group.a[lane]].prescribed_work += sign * dot(impulse, to_double(movers_[group.b[lane]].v));
+        carried_[group.a[lane]] = 1;
+    }
+}
+
+/// Closes the contacts with facets that bodies have left for others: they carried them so far.
+template <class Real>
+void Pile<Real>::leave_facets() {
+    for_each_facet([this](std::uint32_t number) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        if (!(group.impulse[lane] > 0) || !std::isinf(group.gap[lane])) return;
+        carried_[group.a[lane]] = 1;
+        close(number, std::numeric_limits<double>::infinity());
+    });
+}
+
+/// Notes whom obstacles carry.
+template <class Real>
+void Pile<Real>::note_carried() {
+    for_each_facet([this](std::uint32_t number) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        if (group.impulse[name.lane()] > 0) carried_[group.a[name.lane()]] = 1;
+    });
+}
+
+/// Closes the contacts of bodies that were let go, and those that are left to the impacts, because the two come too
+/// fast.
+template <class Real>
+void Pile<Real>::close_contacts() {
+    reopen_contacts();
+    if (state_.bodies.top_growth != 0) {
+        for (const ContactName& name : list_.names()) {
+            if (!name.is_wall()) list_.open(name, now_);
+        }
+    }
+    leave_facets();
+    for_each_marked(fast | gone, [this](const ContactName& name) {
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        const bool is_gone = ((marks_[group.a[lane]] | marks_[group.b[lane]]) & gone) != 0;
+        const auto number = static_cast<std::uint32_t>(&name - list_.names().data());
+        const double gap = gap_of(name);
+        const double approach = approach_of(name);
+        const bool is_open = gap > 0 && approach > least_strike_ && approach > strike_of(name);
+        if (is_gone || is_open) close(number, gap);
+    });
+}
+
+/// What the impulse so far did remains, but is not done again.
+template <class Real>
+void Pile<Real>::close(std::uint32_t number, double gap) {
+    const ContactName& name = list_.names()[number];
+    ContactGroup<Real>& group = list_.group_of(name);
+    const std::size_t lane = name.lane();
+    const Real size = group.impulse[lane];
+    const Vector impulse{group.normal[0][lane] * size + group.rub[0][lane],
+                         group.normal[1][lane] * size + group.rub[1][lane],
+                         group.normal[2][lane] * size + group.rub[2][lane]};
+    const std::uint32_t a = group.a[lane];
+    const std::uint32_t b = group.b[lane];
+    shares_[a] += impulse * movers_[a].inverse_mass;
+    if (b < shares_.size()) shares_[b] -= impulse * movers_[b].inverse_mass;
+    group.impulse[lane] = 0;
+    for (auto& lanes : group.rub) lanes[lane] = 0;
+    group.touching[lane] = -1;
+    group.gap[lane] = std::numeric_limits<Real>::infinity();
+    closed_.push_back({number, gap});
 }
 
 template <class Real>
-double Pile<Real>::strike_of(std::uint32_t number) const {
-    const Contact& contact = contacts_[number];
-    double load = load_on(state_.bodies, leaners_[contact.a].body);
-    if (contact.b != nobody) load = std::min(load, load_on(state_.bodies, leaners_[contact.b].body));
-    return striking_speed(names_[number].restitution, load, state_.laws);
+void Pile<Real>::reopen_contacts() {
+    for (const Closed& closed : closed_) {
+        const ContactName& name = list_.names()[closed.number];
+        if (!name.is_wall()) list_.open(name, now_);
+    }
+    clear_for_reuse(closed_);
+}
+
+template <class Real>
+double Pile<Real>::gap_of(const ContactName& name) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const std::size_t lane = name.lane();
+    if (name.is_wall() || name.is_driven) return static_cast<double>(group.gap[lane]);
+    const Vec3 apart{static_cast<double>(group.apart[0][lane]), static_cast<double>(group.apart[1][lane]),
+                     static_cast<double>(group.apart[2][lane])};
+    const Vec3 delta = apart + (to_double(places_[group.b[lane]].x) - to_double(places_[group.a[lane]].x));
+    return length(delta) - static_cast<double>(group.touching[lane]);
+}
+
+/// m/s, along the line between the two as they are now.
+template <class Real>
+double Pile<Real>::approach_of(const ContactName& name) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const std::size_t lane = name.lane();
+    const std::uint32_t a = group.a[lane];
+    const std::uint32_t b = group.b[lane];
+    const Vec3 apart{static_cast<double>(group.apart[0][lane]), static_cast<double>(group.apart[1][lane]),
+                     static_cast<double>(group.apart[2][lane])};
+    const bool is_given = name.is_wall() || name.is_driven;
+    const Vec3 delta = is_given ? apart : apart + (to_double(places_[b].x) - to_double(places_[a].x));
+    return dot(to_double(movers_[a].v) - to_double(movers_[b].v), contact_normal(delta, Vec3{}));
+}
+
+template <class Real>
+double Pile<Real>::strike_of(const ContactName& name) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    const ContactGroup<Real>& group = list_.group_of(name);
+    double load = load_on(bodies, bodies_[group.a[name.lane()]]);
+    const std::uint32_t b = group.b[name.lane()];
+    if (b < bodies_.size()) load = std::min(load, load_on(bodies, bodies_[b]));
+    return striking_speed(name.restitution, load, state_.laws);
 }
 
 /// Whether the two may strike each other in the piece that has begun.
 template <class Real>
-bool Pile<Real>::may_strike(std::uint32_t number) const {
-    const Contact& contact = contacts_[number];
+bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const std::uint32_t a = group.a[name.lane()];
+    const std::uint32_t b = group.b[name.lane()];
+    if (((marks_[a] | marks_[b]) & gone) != 0) return false;
+    // A surface that moves as prescribed may do so in another way soon.
+    if (name.is_driven) return !std::isinf(gap);
     // The normal turns on the way.
-    // Nor is a wall's velocity the same all the way.
-    if (contact.surface != 0) return true;
-    const double closing = length(leaners_[contact.a].v - velocity_of_other(contact));
+    const double closing = length(to_double(movers_[a].v) - to_double(movers_[b].v));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
-    return closing > least_strike_ && way >= contact.gap && closing > strike_of(number);
+    return closing > least_strike_ && way >= gap && closing > strike_of(name);
 }
 
-/// Takes the bodies' velocities, changed by so much (m/s).
+/// Whether a body may sink so deep into an obstacle in the piece that it has to be stopped.
 template <class Real>
-void Pile<Real>::take_velocities(const Vec3& change) {
-    for_each_leaner([&](std::size_t, std::size_t k) {
-        Leaner& l = leaners_[k];
-        l.before = velocity_of(state_.bodies.motion[l.body]);
-        l.v = l.before + change;
-    });
+bool Pile<Real>::may_sink(const ContactName& name) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const std::uint32_t a = group.a[name.lane()];
+    if ((marks_[a] & gone) != 0) return false;
+    const auto radius = static_cast<double>(state_.bodies.motion[bodies_[a]].radius);
+    const double deepest = (1 - deepest_in_surface) * state_.bounds.obstacles()->contact_distance(radius);
+    const double way = 1.001 * length(to_double(movers_[a].v)) * piece_ + 2 * state_.resolution.metres;
+    return way >= static_cast<double>(group.gap[name.lane()]) + deepest;
 }
 
-/// Gives the bodies their velocities, and enters what that changed.
-template <class Real>
-void Pile<Real>::put_velocities() {
-    for_each_leaner([&](std::size_t, std::size_t k) {
-        Leaner& l = leaners_[k];
-        Motion<Real>& m = state_.bodies.motion[l.body];
-        m.v = rounded<Real>(l.v);
-        const Vec3 after = velocity_of(m);
-        const auto mass = static_cast<double>(state_.bodies.mass[l.body]);
-        accounts_[k].momentum += (after - l.before) * mass;
-        accounts_[k].lost += 0.5 * mass * dot(l.before - after, l.before + after);
-    });
-}
+// ---------------------------------------------------------------------------------------------------------------------
+// Leaners
+// ---------------------------------------------------------------------------------------------------------------------
 
-/// Calls f(part, k) for all bodies that have not been let go.
+/// Calls f(findings, k) for all bodies that have not been let go.
 template <class Real>
 template <class F>
 void Pile<Real>::for_each_leaner(F&& f) {
-    for_each_in_parts(*executor_, leaners_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
-        if (!leaners_[k].is_gone) f(part, k);
+    for_each_in_parts(*executor_, bodies_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+        if ((marks_[k] & gone) == 0) f(findings_[part], k);
     });
 }
 
-/// Calls f(part, number) for all contacts, colour by colour: columns of one colour at the same time, and each upwards.
+/// Puts together what the parts of a loop have found.
 template <class Real>
-template <class F>
-void Pile<Real>::for_each_contact(F&& f) {
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : colour_ends_) {
-        if (end == begin) continue;
-        for_each_in_parts(*executor_, end - begin, column_grain, [&](std::size_t part, std::size_t k) {
-            const Column& column = columns_[begin + k];
-            for (std::uint32_t c = column.begin; c < column.end; ++c) f(part, c);
-        });
-        begin = end;
+void Pile<Real>::collect(std::vector<Index>& bodies) {
+    has_far_ = false;
+    all_marks_ &= gone;
+    if (!list_.driven().empty()) all_marks_ |= fast;
+    for (Findings& findings : findings_) {
+        has_far_ = has_far_ || findings.has_far;
+        if (findings.has_fast) all_marks_ |= fast;
+        bodies.insert(bodies.end(), findings.bodies.begin(), findings.bodies.end());
+        clear_for_reuse(findings.bodies);
+        findings.has_far = findings.has_fast = false;
     }
 }
 
-/// Applies the impulses of the piece before, and finds the strongest of each body.
 template <class Real>
-void Pile<Real>::warm_up() {
-    for_each_leaner([this](std::size_t, std::size_t k) {
-        leaners_[k].pressing = 0;
-        leaners_[k].is_supported = false;
+void Pile<Real>::place(std::size_t leaner) {
+    const Int3 way = state_.bodies.motion[bodies_[leaner]].x - state_.bodies.listed[leaner].x;
+    places_[leaner].x = to_real<Real>(to_metres(way, state_.resolution));
+}
+
+/// Whether it has moved too far for the list.
+template <class Real>
+bool Pile<Real>::is_far(std::size_t leaner) const {
+    return length_squared(to_double(places_[leaner].x)) > far_ * far_;
+}
+
+/// Whether a mover's speed could make a strike.
+template <class Real>
+bool Pile<Real>::mark(std::size_t leaner) {
+    const bool is_fast = 4 * length_squared(to_double(movers_[leaner].v)) > least_strike_ * least_strike_;
+    marks_[leaner] = is_fast ? fast : 0;
+    return is_fast;
+}
+
+/// What gravity and the contacts of the piece before give the bodies.
+template <class Real>
+void Pile<Real>::set_out() {
+    fall_ = to_real<Real>(state_.laws.gravity * piece_);
+    for_each_leaner(
+        [this](Findings&, std::size_t k) { movers_[k].v = state_.bodies.motion[bodies_[k]].v + fall_ + shares_[k]; });
+}
+
+/// The bodies go as the contacts let them.
+template <class Real>
+void Pile<Real>::go() {
+    const auto frequency = static_cast<Real>(1 / piece_);
+    // An impact may change its speed within the piece.
+    const double room = far_ - state_.resolution.metres;
+    const double room_if_slow = std::max(0.0, room - told_speed_ * piece_);
+    for_each_leaner([&](Findings& findings, std::size_t k) {
+        const Index body = bodies_[k];
+        const Vector v = movers_[k].v;
+        const Vector start = std::exchange(state_.bodies.motion[body].v, v);
+        shares_[k] = v - (start + fall_);
+        enter(k, v);
+        if (mark(k)) findings.has_fast = true;
+        const double speed_squared = length_squared(to_double(v));
+        const double moved_squared = length_squared(to_double(places_[k].x));
+        const bool is_told = speed_squared <= told_speed_ * told_speed_
+                                 ? moved_squared <= room_if_slow * room_if_slow
+                                 : std::sqrt(moved_squared) + std::sqrt(speed_squared) * piece_ <= room;
+        state_.bodies.loads[body] = {v, (v - start) * frequency, pressings_[k], is_told};
+        if (!is_told) findings.bodies.push_back(body);
     });
-    for_each_contact([this](std::size_t, std::uint32_t k) {
-        const Contact& contact = contacts_[k];
-        if (!(contact.impulse > 0)) return;
-        push(contact, contact.normal * contact.impulse + contact.friction_impulse);
-        const auto press = [&](Leaner& l) {
-            l.pressing = std::max(l.pressing, contact.impulse * l.inverse_mass / piece_);
-        };
-        press(leaners_[contact.a]);
-        if (contact.b != nobody) press(leaners_[contact.b]);
+    collect(untold_);
+}
+
+/// Looks where the bodies have come to.
+template <class Real>
+void Pile<Real>::arrive(double at) {
+    for_each_leaner([&](Findings& findings, std::size_t k) {
+        advance_leaner(k, at);
+        place(k);
+        carried_[k] = 0;
+        pressings_[k] = 0;
+        movers_[k].v = entered_[k] = state_.bodies.motion[bodies_[k]].v;
+        if (mark(k)) findings.has_fast = true;
+        if (is_far(k)) findings.has_far = true;
     });
+    collect(untold_);
 }
 
-/// Calls f(number), which returns the energy (J) that friction took, for all contacts.
+/// What the hard pass leaves of the velocities; those whom no contact with a moving body or an obstacle carried or
+/// pushed are let go.
 template <class Real>
-template <class F>
-void Pile<Real>::pass(F&& f) {
-    std::array<double, most_parts> losses{};
-    for_each_contact([&](std::size_t part, std::uint32_t k) { losses[part] += f(k); });
-    for (const double loss : losses) friction_loss_ += loss;
-}
-
-/// Solves one contact; returns the energy that its friction took, J.
-template <class Real>
-double Pile<Real>::solve(Contact& contact, const Softness& softness) {
-    if (contact.is_open) return 0;
-    Leaner& a = leaners_[contact.a];
-    const Vec3 slip = velocity_of_other(contact) - a.v;
-    const double parting = dot(slip, contact.normal);
-    double impulse = 0;
-    if (contact.gap > 0) {
-        // As fast as they just do not touch at the end of the piece.
-        impulse = -contact.mass * (parting + contact.gap / piece_);
-    } else {
-        impulse = -contact.mass * softness.mass * (parting + softness.rate * contact.gap) -
-                  softness.impulse * contact.impulse;
-    }
-    impulse = std::max(impulse, -contact.impulse);
-    contact.impulse += impulse;
-    if (contact.impulse > 0 && contact.b != nobody) a.is_supported = leaners_[contact.b].is_supported = true;
-    if (contact.impulse > 0 && contact.surface != 0) a.is_supported = true;
-    push(contact, contact.normal * impulse);
-    return contact.friction == 0 ? 0 : rub(contact, slip - contact.normal * parting);
-}
-
-/// Brakes the sliding (m/s) of the other on a leaner, as far as friction can; returns the energy that it took, J.
-template <class Real>
-double Pile<Real>::rub(Contact& contact, const Vec3& sliding) {
-    const Vec3 before = contact.friction_impulse;
-    Vec3 wanted = before - sliding * contact.mass;
-    const double most = contact.friction * contact.impulse;
-    const double size = length(wanted);
-    if (size > most) wanted *= most / size;
-    contact.friction_impulse = wanted;
-    const Vec3 change = wanted - before;
-    push(contact, change);
-    return -dot(change, sliding + change * (0.5 / contact.mass));
-}
-
-/// Gives the other of a contact an impulse (N s), and the leaner the opposite.
-template <class Real>
-void Pile<Real>::push(const Contact& contact, const Vec3& impulse) {
-    Leaner& a = leaners_[contact.a];
-    a.v -= impulse * a.inverse_mass;
-    if (contact.surface != 0) accounts_[contact.a].prescribed_work -= dot(impulse, surfaces_[contact.surface]);
-    if (contact.b == nobody) return;
-    Leaner& b = leaners_[contact.b];
-    b.v += impulse * b.inverse_mass;
-}
-
-/// Lets everybody know how the bodies are pressed.
-template <class Real>
-void Pile<Real>::enter_loads() {
-    std::array<double, most_parts> tops{}; // m^2/s^2
-    for_each_leaner([&](std::size_t part, std::size_t k) {
-        Leaner& l = leaners_[k];
-        const double squared = length_squared(l.v);
-        tops[part] = std::max(tops[part], squared);
-        // An impact may change its speed within the piece.
-        l.way += std::max(std::sqrt(squared), told_speed()) * piece_ + state_.resolution.metres;
-        const bool is_told = l.way <= margin_ / 2;
-        state_.bodies.loads[l.body] = {.pull = (l.v - l.before) / piece_, .pressing = l.pressing, .is_told = is_told};
+void Pile<Real>::come_to_rest() {
+    const bool had_far = has_far_;
+    for_each_leaner([this](Findings& findings, std::size_t k) {
+        const Index body = bodies_[k];
+        state_.bodies.motion[body].v = movers_[k].v;
+        shares_[k] += movers_[k].v - entered_[k];
+        double& still = state_.bodies.listed[k].still;
+        still = length_squared(to_double(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
+        if (carried_[k] != 0) return;
+        enter(k, movers_[k].v);
+        marks_[k] = gone;
+        state_.bodies.kind[body] = Kind::free;
+        state_.bodies.loads[body] = {};
+        findings.bodies.push_back(body);
     });
-    top_speed_ = std::sqrt(*std::max_element(tops.begin(), tops.end()));
+    collect(released_);
+    has_far_ = had_far;
+    if (!released_.empty()) all_marks_ |= gone;
 }
 
-/// Lets those go that no contact with anything that moves carried or pushed.
+/// Brings a body to time `at`.
 template <class Real>
-void Pile<Real>::release_unsupported() {
-    for (Leaner& l : leaners_) {
-        if (l.is_supported || l.is_gone) continue;
-        l.is_gone = true;
-        state_.bodies.kind[l.body] = Kind::free;
-        state_.bodies.loads[l.body] = {};
-        released_.push_back(l.body);
-    }
+void Pile<Real>::advance_leaner(std::size_t leaner, double at) {
+    Motion<Real>& m = state_.bodies.motion[bodies_[leaner]];
+    const double duration = at - m.t;
+    const Int3 start = m.x;
+    move_on(m, {}, at, state_.resolution);
+    Entry entry;
+    // What creeps by less than the resolution stays, and gravity does no work on it.
+    book_piled_way(state_, bodies_[leaner], to_metres(m.x - start, state_.resolution), duration, entry);
+    accounts_[leaner].lost += entry.lost_to_restitution;
+    accounts_[leaner].held_mass_time += entry.held_mass_time;
+}
+
+/// Enters what has changed a body's velocity since that was entered, but for impacts.
+template <class Real>
+void Pile<Real>::enter(std::size_t leaner, const Vector& v) {
+    const auto mass = static_cast<double>(state_.bodies.mass[bodies_[leaner]]);
+    const Vec3 before = to_double(entered_[leaner]);
+    const Vec3 after = to_double(v);
+    accounts_[leaner].momentum += (after - before) * mass;
+    accounts_[leaner].lost += 0.5 * mass * dot(before - after, before + after);
+    entered_[leaner] = v;
 }
 
 template <class Real>
 std::size_t Pile<Real>::size() const {
-    return static_cast<std::size_t>(
-        std::count_if(leaners_.begin(), leaners_.end(), [](const Leaner& l) { return !l.is_gone; }));
+    const Bodies<Real>& bodies = state_.bodies;
+    return static_cast<std::size_t>(std::count_if(bodies.kind.begin(), bodies.kind.end(), leans));
 }
 
 template class Pile<float>;

@@ -9,16 +9,15 @@
 /// 2024).
 #pragma once
 
+#include "contact/contact_list.hpp"
+#include "contact/disjoint_sets.hpp"
 #include "contact/rest.hpp"
-#include "space/neighbours.hpp"
-#include "space/state.hpp"
-#include "space/ticks.hpp"
 #include "space/window.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace carom::core {
@@ -26,7 +25,7 @@ namespace carom::core {
 template <class Real>
 class Pile {
 public:
-    explicit Pile(State<Real>& state) : state_(state) {}
+    explicit Pile(State<Real>& state) : state_(state), list_(state) {}
 
     void use(Executor& executor) { executor_ = &executor; }
 
@@ -35,9 +34,12 @@ public:
     /// Start of a step: bodies may have come, gone, or changed places in memory.
     void begin_step();
     /// Whether bodies are piled: to be asked between pieces.
-    [[nodiscard]] bool is_active() const { return !leaners_.empty() || state_.bodies.newly_piled; }
-    /// Bodies, after end_step().
+    [[nodiscard]] bool is_active() const { return !state_.bodies.listed.empty() || state_.bodies.newly_piled; }
+    /// Bodies, those that are asleep among them.
     [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] std::size_t asleep() const;
+    /// Contacts that bear something, after end_step().
+    [[nodiscard]] std::size_t contacts() const { return bearing_; }
     /// Start of a piece [from, to] (s since the start of the step): sets the velocities of the piled bodies.
     void begin_piece(double from, double to);
     /// End of it, or of what a step that ends early did of it. Bodies that nothing supports any more are free again.
@@ -46,53 +48,40 @@ public:
     void end_step(double reached);
 
     /// Calls f(a, b) for every pair that may strike each other in the piece, and f(a, no_index) for a body that may
-    /// strike a wall, as far as bodies are told of (see Load) and no faster than told_speed().
+    /// strike a wall, as far as bodies are told of (see Load).
     template <class F>
     void for_each_strike(F&& f) const {
-        if (2 * top_speed_ <= least_strike_) return;
-        for (std::uint32_t k = 0; k < contacts_.size(); ++k) {
-            if (!may_strike(k)) continue;
-            const bool is_wall = (names_[k].code & Support::wall_bit) != 0;
-            f(leaners_[contacts_[k].a].body, is_wall ? no_index : state_.bodies.slots[names_[k].code]);
+        const auto tell = [&](const ContactName& name) {
+            f(state_.bodies.slots[name.slot], name.is_wall() ? no_index : state_.bodies.slots[name.code]);
+        };
+        for (const Closed& closed : closed_) {
+            if (may_strike(list_.names()[closed.number], closed.gap)) tell(list_.names()[closed.number]);
         }
+        for_each_marked(fast, [&](const ContactName& name) {
+            if (may_strike(name, static_cast<double>(list_.group_of(name).gap[name.lane()]))) tell(name);
+        });
+        for_each_facet([&](std::uint32_t number) {
+            if (may_sink(list_.names()[number])) tell(list_.names()[number]);
+        });
     }
     /// m/s
-    [[nodiscard]] double told_speed() const { return 0.5 * striking_speed(0, 0, state_.laws); }
-    /// Calls f(body) for the piled bodies that are not told of.
-    template <class F>
-    void for_each_untold(F&& f) const {
-        for (const Leaner& l : leaners_) {
-            if (!l.is_gone && !state_.bodies.loads[l.body].is_told) f(l.body);
-        }
-    }
-
+    [[nodiscard]] double told_speed() const { return told_speed_; }
+    /// Piled bodies that are not told of in the piece.
+    [[nodiscard]] std::span<const Index> untold() const { return untold_; }
     /// Bodies that the last end_piece() let go.
     [[nodiscard]] std::span<const Index> released() const { return released_; }
 
 private:
-    static constexpr std::uint32_t nobody = 0xffffffffU;
+    static constexpr std::uint32_t nobody = ContactList<Real>::nobody;
     static constexpr std::size_t leaner_grain = 1024;
     static constexpr std::size_t contact_grain = 1024;
-    static constexpr std::size_t column_grain = 4;
-    static constexpr std::size_t colours = 4;
+
+    using Vector = Vector3<Real>;
 
     /// Pieces a second.
     struct Rates {
         double load = 0;       ///< that the loads ask for
         double mass_ratio = 0; ///< that bodies on lighter ones ask for
-    };
-    /// A piled body while it is worked on.
-    struct Leaner {
-        Index body = no_index;
-        bool is_gone = false;      ///< it was let go
-        bool is_supported = false; ///< by a contact with a body that moves, in this piece
-        double inverse_mass = 0;   ///< 1/kg
-        Vec3 v{};                  ///< m/s
-        Vec3 before{};             ///< m/s, when the passes began
-        Vec3 moved{};              ///< m, since it was listed
-        double pressing = 0;       ///< m/s^2, as in Load
-        double way = 0;            ///< m that it came at most since it was listed
-        Int3 listed{};             ///< units
     };
     /// What is not in the books yet.
     struct Account {
@@ -101,148 +90,146 @@ private:
         double prescribed_work = 0; ///< J
         double held_mass_time = 0;  ///< kg s
     };
-    /// What a leaner touches, or may while the list lasts. Two cache lines: the passes stream through them.
-    struct Contact {
-        std::uint32_t a = 0;       ///< a leaner; of two, the one with the lower slot
-        std::uint32_t b = nobody;  ///< the other leaner, or nobody
-        Vec3 apart{};              ///< m, from a to another body when they were listed
-        double touching = 0;       ///< m, the distance at which they touch
-        Vec3 normal{};             ///< unit vector from a to the other
-        double gap = 0;            ///< m
-        double impulse = 0;        ///< N s in a piece, pushes them apart
-        double mass = 0;           ///< kg, reduced
-        double friction = 0;       ///< Coulomb's mu
-        Vec3 friction_impulse{};   ///< N s in a piece, on the other
-        bool is_open = false;      ///< left to the impacts: the two approach too fast
-        std::uint32_t surface = 0; ///< in surfaces_: how the other moves if that is prescribed
+    /// A contact that is left to the impacts, or whose body was let go.
+    struct Closed {
+        std::uint32_t number = 0; ///< in the list
+        double gap = 0;           ///< m
     };
-    /// What is seldom asked of a contact.
-    struct ContactName {
-        std::uint32_t slot = 0; ///< of a
-        std::uint32_t code = 0; ///< as in ContactForce
-        double restitution = 0;
+    /// What is particular about a mover.
+    enum Mark : std::uint8_t {
+        fast = 1, ///< its speed could make a strike
+        gone = 2, ///< it was let go
     };
-    struct Found {
-        ContactName name{};
-        Contact contact{};
-    };
-    /// Where a leaner was when the contacts were listed, in cells that no contact is longer than.
-    struct Cell {
-        std::array<std::uint32_t, 2> across{};
-        std::uint32_t height = 0; ///< against gravity
-    };
-    struct CellAxis {
-        static constexpr std::uint32_t most = 1U << 29U; ///< cells
-        int axis = 0;
-        std::int64_t start = 0; ///< units
-        std::uint64_t edge = 1; ///< units
-        std::uint32_t turn = 0; ///< cells around a periodic axis, else 0
-        [[nodiscard]] std::uint32_t cell_of(const Int3& x) const {
-            const std::uint64_t offset =
-                static_cast<std::uint64_t>(component(x, axis)) - static_cast<std::uint64_t>(start);
-            const auto cell = static_cast<std::uint32_t>(offset / edge);
-            return turn == 0 ? cell : std::min(cell, turn - 1);
-        }
-    };
-    /// The order in which contacts are solved: a function of the state alone.
-    struct Order {
-        std::uint64_t column = 0; ///< its colour first
-        std::uint32_t height = 0;
-        std::uint32_t contact = 0;
-        std::uint64_t ids = 0;
-        friend bool operator<(const Order& x, const Order& y) {
-            return std::tie(x.column, x.height, x.ids) < std::tie(y.column, y.height, y.ids);
-        }
-    };
-    /// Contacts above each other: solved one after the other, upwards. Those of one colour have no bodies in common.
-    struct Column {
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-    };
-    /// How a pass turns overlap and approach into impulses; all of the approach and none of the overlap by default.
-    struct Softness {
-        double rate = 0;    ///< 1/s, at which overlap is undone
-        double mass = 1;    ///< part of the effective mass
-        double impulse = 0; ///< part of the impulse so far that is taken back
+    /// What a part of a loop over the leaners comes to.
+    struct Findings {
+        bool has_fast = false;
+        bool has_far = false; ///< someone has moved too far for the list
+        std::vector<Index> bodies;
     };
 
     [[nodiscard]] Rates wanted_rates() const;
+
+    // The list.
     void start_list(double from);
+    [[nodiscard]] bool is_driven() const;
+    [[nodiscard]] double wanted_margin() const;
+    [[nodiscard]] double unlisted_approach() const;
     void gather();
+    void resume_list();
     bool take_back(double from);
-    void advance_all(double at);
-    void add_to_account(std::uint32_t leaner, const Entry& entry);
-    void find_contacts();
-    void add_pair(std::vector<Found>& found, Index a, Index b) const;
-    void add_walls(std::vector<Found>& found, std::uint32_t a) const;
-    [[nodiscard]] double reduced_mass(Index a, Index b) const;
-    [[nodiscard]] bool grows(Index a, Index b) const;
-    [[nodiscard]] double distance_now(std::uint32_t number) const;
-    void assign_cells();
-    [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
-    [[nodiscard]] Order order_of(std::uint32_t number) const;
-    void sort_contacts();
+    void advance_leaner(std::size_t leaner, double at);
+    void start_values();
     void recall_forces();
     void keep_forces();
+    void note_pressings();
+    void advance_newcomers(double at);
 
-    void measure_all();
-    void measure(std::uint32_t number);
-    void look_at_kinematic(std::uint32_t number);
-    [[nodiscard]] Vec3 mean_velocity(const Bounds::Wall& wall, const Int3& x) const;
-    [[nodiscard]] Vec3 velocity_of_other(const Contact& contact) const {
-        return contact.b == nobody ? surfaces_[contact.surface] : leaners_[contact.b].v;
+    // Sleep.
+    void fall_asleep(double reached);
+    void leave_sleepers();
+    void wake_islands();
+    bool wake_neighbours();
+    [[nodiscard]] double asleep_mass();
+
+    // Contacts.
+    [[nodiscard]] ContactRun<Real> run_of(std::span<ContactGroup<Real>> groups);
+    template <class F>
+    void pass(F&& solve);
+    void measure_walls();
+    void measure_driven();
+    [[nodiscard]] Vector surface_velocity(const ContactName& name, const Vec3& normal) const;
+    [[nodiscard]] Touch touch_of(const ContactName& name, Index body) const;
+    void book_driven(double sign);
+    /// Calls f(number) for the contacts with obstacles.
+    template <class F>
+    void for_each_facet(F&& f) const {
+        if (state_.bounds.obstacles() == nullptr) return;
+        for (const std::uint32_t number : list_.at_walls()) {
+            if (state_.bounds.is_facet(list_.names()[number].wall())) f(number);
+        }
     }
-    [[nodiscard]] double approach_of(const Contact& contact) const;
-    [[nodiscard]] double strike_of(std::uint32_t number) const;
-    [[nodiscard]] bool may_strike(std::uint32_t number) const;
-    void take_velocities(const Vec3& change);
-    void put_velocities();
-    void settle_accounts();
+    void leave_facets();
+    void note_carried();
+    void close_contacts();
+    void close(std::uint32_t number, double gap);
+    void reopen_contacts();
+    [[nodiscard]] double gap_of(const ContactName& name) const;
+    [[nodiscard]] double approach_of(const ContactName& name) const;
+    [[nodiscard]] double strike_of(const ContactName& name) const;
+    [[nodiscard]] bool may_strike(const ContactName& name, double gap) const;
+    [[nodiscard]] bool may_sink(const ContactName& name) const;
+    template <class F>
+    void for_each_marked(std::uint8_t marks, F&& f) const {
+        if ((all_marks_ & marks) == 0) return;
+        const std::span<const ContactName> names = list_.names();
+        for (const ContactName& name : names) {
+            const ContactGroup<Real>& group = list_.group_of(name);
+            if (((marks_[group.a[name.lane()]] | marks_[group.b[name.lane()]]) & marks) != 0) f(name);
+        }
+    }
+
+    // Leaners.
     template <class F>
     void for_each_leaner(F&& f);
-    template <class F>
-    void for_each_contact(F&& f);
-    void warm_up();
-    template <class F>
-    void pass(F&& f);
-    [[nodiscard]] double solve(Contact& contact, const Softness& softness);
-    [[nodiscard]] double rub(Contact& contact, const Vec3& sliding);
-    void push(const Contact& contact, const Vec3& impulse);
-    void enter_loads();
-    void release_unsupported();
+    void collect(std::vector<Index>& bodies);
+    void set_out();
+    void go();
+    void arrive(double at);
+    void come_to_rest();
+    void place(std::size_t leaner);
+    [[nodiscard]] bool is_far(std::size_t leaner) const;
+    bool mark(std::size_t leaner);
+    void enter(std::size_t leaner, const Vector& v);
+    void settle_accounts();
 
     State<Real>& state_;
     Executor* executor_ = nullptr;
+    const GroupSolver<Real>* solver_ = nullptr;
 
-    // The list, which lasts for some pieces.
-    std::vector<Leaner> leaners_;
-    std::vector<std::uint32_t> places_; ///< per body: in leaners_, or nobody
-    std::vector<Index> statics_;
-    std::vector<Account> accounts_; ///< per leaner
-    std::vector<ContactName> names_;
-    std::vector<Contact> contacts_;      ///< in the order in which they are solved
-    std::vector<Vec3> surfaces_{Vec3{}}; ///< m/s, the first of what rests, the others of one contact each
-    std::vector<Column> columns_;
-    std::array<std::uint32_t, colours> colour_ends_{}; ///< in columns_
-    double listed_until_ = 0;                          ///< s since the start of the step
-    double margin_ = 0;                                ///< m, gaps up to this are listed
+    ContactList<Real> list_;
+    bool is_listed_ = false;  ///< list_ is the one that the state tells of
+    bool has_values_ = false; ///< impulses and the like are those of the step
+    bool has_far_ = false;    ///< someone has moved too far for the list
+    std::size_t bearing_ = 0;
+    std::optional<double> asleep_mass_; ///< kg
+    std::size_t asleep_ = 0;            ///< bodies that make it up
+
+    // Per leaner.
+    std::vector<Index> bodies_;
+    std::vector<Vector> entered_; ///< m/s, the velocity up to which changes are in the accounts
+    std::vector<Vector> shares_;  ///< m/s, what the contacts gave it in the piece
+    std::vector<Account> accounts_;
+    // Per mover.
+    LineVector<Mover<Real>> movers_;
+    LineVector<Place<Real>> places_; ///< how far it has come since it was listed
+    std::vector<std::uint8_t> marks_;
+    std::vector<std::uint8_t> carried_;
+    std::vector<Real> pressings_; ///< m/s^2, as in Load
+
+    std::vector<Closed> closed_;
+    std::uint8_t all_marks_ = 0;
+
+    // The step.
+    double still_speed_ = 0; ///< m/s, what is slower lies still
+    double told_speed_ = 0;  ///< m/s
+    double far_ = 0;         ///< m, that a body may move until the list does no longer for it
 
     // The piece.
-    double now_ = 0;           ///< s since the start of the step, when all were brought up to date
     double piece_ = 0;         ///< s
+    double now_ = 0;           ///< s since the start of the step, up to which the bodies have come
+    Vector fall_{};            ///< m/s, what gravity gives in it
     double friction_loss_ = 0; ///< J, not in the books yet
-    double top_speed_ = 0;     ///< m/s, of the leaners
     double least_strike_ = 0;  ///< m/s: what is slower strikes nothing
+    std::vector<Index> untold_;
     std::vector<Index> released_;
 
-    // Room to make the list in.
-    Ticks ticks_;
-    Neighbours neighbours_;
-    std::array<std::vector<Found>, most_parts> found_;
-    std::vector<Found> all_found_;
-    std::vector<Cell> cells_; ///< per leaner
-    std::array<std::uint32_t, 2> turns_{};
-    std::vector<Order> orders_;
+    // Room to work in.
+    std::array<Findings, most_parts> findings_;
+    std::vector<std::uint32_t> returned_;
+    std::vector<double> still_; ///< s, per slot
+    DisjointSets islands_;
+    std::vector<bool> wakeful_;  ///< per root of an island
+    std::vector<double> losses_; ///< J, per bundle
     std::vector<std::uint32_t> first_forces_;
     std::vector<std::uint32_t> force_order_;
 };

@@ -57,7 +57,7 @@ Support derived(const State<Real>& state, Index body, const Support& support) {
     Support now;
     if (support.is_wall()) {
         now = support_by_wall(state, support.wall(), normal, m, 0);
-        now.friction = encounter_of(state, body, state.bounds.walls()[support.wall()]).friction;
+        now.friction = encounter_of(state, body, state.bounds.surface(support.wall())).friction;
     } else {
         const Index fixed = state.bodies.slots[support.code];
         now = support_by_body(support.code, normal, m, state.bodies.motion[fixed], 0);
@@ -143,6 +143,15 @@ Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3
             .is_driven = face.is_driven || growth != 0,
             .velocity = Bounds::velocity(face, motion.x, {}, motion.t) - normal * growth,
             .acceleration = Bounds::acceleration(face, motion.t)};
+}
+
+template <class Real>
+Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
+                         const Vec3& d, const Vec3& velocity) {
+    const std::uint32_t facet = wall - state.bounds.first_facet();
+    return {.code = Support::wall_bit | wall,
+            .normal = touch.normal,
+            .bend = state.bounds.obstacles()->bend(facet, motion.x, d, velocity)};
 }
 
 template <class Real>
@@ -283,6 +292,8 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template Support support_by_wall(const State<Real>&, std::uint32_t, const Vec3&, const Motion<Real>&, double);     \
+    template Support support_by_facet(const State<Real>&, std::uint32_t, const Touch&, const Motion<Real>&,            \
+                                      const Vec3&, const Vec3&);                                                       \
     template Support support_by_body(std::uint32_t, const Vec3&, const Motion<Real>&, const Motion<Real>&, double);    \
     template Pressure pressure_on(const State<Real>&, const Motion<Real>&, std::uint32_t, const Support&,              \
                                   const Vec3&);                                                                        \

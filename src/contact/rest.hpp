@@ -26,7 +26,7 @@ inline double striking_speed(double e, double load, const Laws& laws) {
 }
 template <class Real>
 double load_on(const Bodies<Real>& bodies, Index i) {
-    return i < bodies.loads.size() ? bodies.loads[i].pressing : 0;
+    return i < bodies.loads.size() ? static_cast<double>(bodies.loads[i].pressing) : 0;
 }
 
 /// Derives the times of Laws. A contact between bodies takes quick_time, in which gravity gives a speed of
@@ -68,11 +68,39 @@ template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);
 
-/// A wall, or a static or kinematic body, as what a body may rest against at its own time; without friction. What grows
-/// (m/s, the two together) drives the surface on.
+/// The part of its radius at which the centre of a body that has sunk into a surface is stopped: a surface has no
+/// thickness, and contacts give way.
+inline constexpr double deepest_in_surface = 0.5;
+
+/// Whether a body that moves with `velocity` (m/s) may come to lie on an obstacle. It is piled there, not held, so
+/// gravity has to press it on; and it goes straight for a piece, in which a curved surface must not bend towards it by
+/// more than this part of its radius: contacts undo a fourteenth of an overlap in a piece.
+template <class Real>
+bool may_lie_on_obstacle(const State<Real>& state, const Support& support, double radius, const Vec3& velocity,
+                         double e) {
+    constexpr double longest_piece = 1.0 / 480;
+    constexpr double most = 0.01;
+    const double way = length(velocity) * longest_piece;
+    const double contact = state.bounds.obstacles()->contact_distance(radius);
+    return e < 1 && state.laws.gravity != Vec3{} && 0.5 * std::abs(support.bend) * way * way <= most * contact;
+}
+
+/// m/s, the approach above which a piled body strikes a wall or facet.
+template <class Real>
+double striking_speed_at(const State<Real>& state, Index body, std::uint32_t wall) {
+    const double e = encounter_of(state, body, state.bounds.surface(wall)).restitution;
+    return striking_speed(e, load_on(state.bodies, body), state.laws);
+}
+
+/// A wall, a facet of an obstacle (where a body at motion.x + d moves with `velocity`), or a static or kinematic body,
+/// as what a body may rest against at its own time; without friction. What grows (m/s, the two together) drives the
+/// surface on.
 template <class Real>
 Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion,
                         double growth);
+template <class Real>
+Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
+                         const Vec3& d, const Vec3& velocity);
 template <class Real>
 Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed,
                         double growth);

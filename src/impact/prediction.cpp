@@ -152,7 +152,7 @@ double predict_in_order(const State<Real>& state, const Path<Real>& a, const Pat
 /// Whether contacts keep two bodies apart, unless one strikes the other.
 template <class Real>
 bool is_in_pile(const Path<Real>& a, const Path<Real>& b) {
-    const auto can_be = [](Kind kind) { return kind == Kind::piled || is_prescribed(kind); };
+    const auto can_be = [](Kind kind) { return leans(kind) || is_prescribed(kind); };
     return (a.kind == Kind::piled && can_be(b.kind)) || (b.kind == Kind::piled && can_be(a.kind));
 }
 
@@ -176,17 +176,68 @@ double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path
     return approach > std::max(strike, surface_rounding(a, b, m, n)) ? time : no_impact;
 }
 
-/// The same at a wall, for a time of impact `time` s after the body's own.
+/// The same at a wall or facet, for a time of impact `time` s after the body's own.
 template <class Real>
-bool strikes_wall(const State<Real>& state, Index body, const Bounds::Wall& wall, double time) {
+bool strikes_wall(const State<Real>& state, Index body, std::uint32_t wall, double time) {
     const Motion<Real>& m = state.bodies.motion[body];
     const Vec3 v = velocity_of(m);
-    const Vec3 normal = state.bounds.normal(wall, m.x, v * time, state.resolution);
-    const double growth = growth_of(state.bodies, body);
-    const Vec3 u = Bounds::velocity(wall, m.x, v * time, m.t + time) - normal * growth;
-    const double load = load_on(state.bodies, body);
-    const double strike = striking_speed(encounter_of(state, body, wall).restitution, load, state.laws);
-    return dot(v - u, normal) > std::max(strike, approach_rounding<Real>(v, u, normal));
+    const double then = m.t + time;
+    const Touch touch =
+        state.bounds.impact(wall, m.x, v * time, radius_at(state.bodies, body, then), then, state.resolution);
+    Vec3 u = touch.normal * -growth_of(state.bodies, body);
+    if (!state.bounds.is_facet(wall)) u += Bounds::velocity(state.bounds.walls()[wall], m.x, v * time, then);
+    const double strike = striking_speed_at(state, body, wall);
+    return dot(v - u, touch.normal) > std::max(strike, approach_rounding<Real>(v, u, touch.normal));
+}
+
+/// When a piled body meets a facet: where it strikes, or has sunk in so far that it could come out on the other side.
+template <class Real>
+double predict_piled_at_facet(const State<Real>& state, Index body, std::uint32_t wall, double horizon) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const Vec3 v = velocity_of(m);
+    const Obstacles& obstacles = *state.bounds.obstacles();
+    const std::uint32_t facet = wall - state.bounds.first_facet();
+    const double contact = obstacles.contact_distance(static_cast<double>(m.radius));
+    const double touch = obstacles.time_to(facet, m.x, v, {}, contact, horizon);
+    if (touch <= horizon && strikes_wall(state, body, wall, touch)) return m.t + touch;
+    // One that was stopped already, and goes along a surface that bends towards it, is so again halfway to it.
+    const double distance = obstacles.impact(facet, m.x, {}, static_cast<double>(m.radius)).gap + contact;
+    for (const double depth : {deepest_in_surface * contact, 0.5 * std::min(distance, deepest_in_surface * contact)}) {
+        const double stop = obstacles.time_to(facet, m.x, v, {}, depth, horizon);
+        if (stop == no_impact) return no_impact;
+        const Vec3 n = obstacles.impact(facet, m.x, v * stop, static_cast<double>(m.radius)).normal;
+        if (dot(v, n) > approach_rounding<Real>(v, {}, n)) return m.t + stop;
+    }
+    return no_impact;
+}
+
+/// When a body meets a facet of an obstacle.
+template <class Real>
+double predict_facet(const State<Real>& state, Index body, std::uint32_t wall) {
+    const Motion<Real>& m = state.bodies.motion[body];
+    const double horizon = horizon_of(m.t, state.laws.kick_interval);
+    if (state.bodies.kind[body] == Kind::piled) return predict_piled_at_facet(state, body, wall, horizon);
+    const Obstacles& obstacles = *state.bounds.obstacles();
+    const std::uint32_t facet = wall - state.bounds.first_facet();
+    const Vec3 a = acceleration_of(state, body);
+    const Vec3 v = velocity_of(m);
+    const auto radius = static_cast<double>(m.radius);
+    const double contact = obstacles.contact_distance(radius);
+    const double time = obstacles.time_to(facet, m.x, v, a, contact, horizon);
+    if (time == no_impact) return no_impact;
+    const Touch touch = obstacles.impact(facet, m.x, {}, radius);
+    const bool touches = touch.gap <= state.resolution.metres;
+    if (!touches || std::abs(dot(v, touch.normal)) > approach_rounding<Real>(v, {}, touch.normal)) return m.t + time;
+    // An approach that is mere rounding is none. Whatever presses the body comes to lie; what may not do that strikes
+    // as soon as it is a little deeper.
+    const double e = encounter_of(state, body, state.bounds.surface(wall)).restitution;
+    const Support support = support_by_facet(state, wall, touch, m, {}, v);
+    if (may_lie_on_obstacle(state, support, radius, v, e)) {
+        const double pressing = pressure_on(state, m, state.bodies.slot[body], support, v).acceleration;
+        if (std::max(pressing, dot(a, touch.normal)) > 0) return m.t;
+    }
+    const double deeper = contact + std::min(touch.gap, 0.0) - 2 * state.resolution.metres;
+    return m.t + obstacles.time_to(facet, m.x, v, a, deeper, horizon);
 }
 
 } // namespace
@@ -210,7 +261,8 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
     if (both_free && !state.bounds.any_periodic() && bodies.growth.empty()) {
         return predict_free_pair(state, bodies.motion[i], bodies.motion[j], until);
     }
-    if (is_prescribed(bodies.kind[i]) && is_prescribed(bodies.kind[j])) return no_impact;
+    const bool both_prescribed = is_prescribed(bodies.kind[i]) && is_prescribed(bodies.kind[j]);
+    if (both_prescribed || (is_still(bodies.kind[i]) && is_still(bodies.kind[j]))) return no_impact;
     if (rests_on(bodies, i, bodies.slot[j]) || rests_on(bodies, j, bodies.slot[i])) return no_impact;
     return predict_paths(state, path_of(state, i), path_of(state, j), now, until);
 }
@@ -229,8 +281,9 @@ double time_to_driven_wall(const Bounds::Wall& wall, double gap, double velocity
 
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
+    if (state.bounds.is_facet(wall)) return predict_facet(state, body, wall);
     const Bodies<Real>& bodies = state.bodies;
-    if (rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
+    if (bodies.kind[body] == Kind::asleep || rests_on(bodies, body, Support::wall_bit | wall)) return no_impact;
     const Motion<Real>& m = bodies.motion[body];
     const Bounds::Wall& face = state.bounds.walls()[wall];
     const Vec3 a = acceleration_of(state, body);
@@ -256,7 +309,7 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall) {
                               : time_to_plane(gap, parting, lift, horizon);
     }
     if (bodies.kind[body] == Kind::piled) {
-        return time <= horizon && strikes_wall(state, body, face, time) ? m.t + time : no_impact;
+        return time <= horizon && strikes_wall(state, body, wall, time) ? m.t + time : no_impact;
     }
     if (gap > state.resolution.metres || time > horizon) return m.t + time;
     // The body touches: an approach that is mere rounding is none, but whatever presses it brings it to rest.

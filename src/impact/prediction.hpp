@@ -78,21 +78,27 @@ double predict_pair(const State<Real>& state, Index i, Index j, double now, doub
 template <class Real>
 double predict_paths(const State<Real>& state, const Path<Real>& i, const Path<Real>& j, double now, double until);
 
-/// When a body meets one wall of the region next, s since the start of the step, or no_impact if not in this step.
+/// When a body meets one wall of the region or facet of an obstacle next, s since the start of the step, or no_impact
+/// if not in this step.
 template <class Real>
 double predict_wall(const State<Real>& state, Index body, std::uint32_t wall);
 
-/// Calls f(time, wall) for every wall that a body meets until `until`.
+/// Calls f(time, wall) for every wall and facet that a body meets until `until`.
 template <class Real, class F>
 void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {
     if (is_prescribed(state.bodies.kind[body])) return;
     const Motion<Real>& m = state.bodies.motion[body];
     const double reach = reach_of(m, acceleration_of(state, body), until) + state.bodies.top_growth * until;
-    if (!state.bounds.may_touch(m.x, reach, state.resolution)) return;
-    const auto count = static_cast<std::uint32_t>(state.bounds.walls().size());
-    for (std::uint32_t wall = 0; wall < count; ++wall) {
+    const auto look = [&](std::uint32_t wall) {
         const double time = predict_wall(state, body, wall);
         if (time <= until) f(time, Event::wall_bit | wall);
+    };
+    const std::uint32_t first_facet = state.bounds.first_facet();
+    if (state.bounds.may_touch_wall(m.x, reach, state.resolution)) {
+        for (std::uint32_t wall = 0; wall < first_facet; ++wall) look(wall);
+    }
+    if (const Obstacles* obstacles = state.bounds.obstacles()) {
+        obstacles->for_each_near(m.x, reach, [&](std::uint32_t facet) { look(first_facet + facet); });
     }
 }
 

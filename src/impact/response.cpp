@@ -104,10 +104,17 @@ Pressure pressure_here(const State<Real>& state, Index body, const Support& supp
     return pressure;
 }
 
+template <class Real>
+bool is_obstacle(const State<Real>& state, const Support& support) {
+    return support.is_wall() && state.bounds.is_facet(support.wall());
+}
+
 /// A support that a body, not piled, touches with `v` relative to it: whether the body comes to rest there. `rounding`:
 /// what is slower does not approach at all. On a support that moves it leans, as on another body.
 template <class Real>
 bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double rounding, double e) {
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    if (is_obstacle(state, support) && !may_lie_on_obstacle(state, support, radius, v, e)) return false;
     const Pressure pressure = pressure_here(state, body, support, v);
     const double approach = dot(v, support.normal);
     if (approach <= rounding) return pressure.acceleration > 0;
@@ -126,8 +133,15 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     const double approach = dot(relative, support.normal);
     const double rounding = approach_rounding<Real>(v, support.velocity, support.normal);
     bool stays = false;
+    const bool leans = is_obstacle(state, support);
     const bool is_piled = state.bodies.kind[body] == Kind::piled;
-    bool come_to_rest = !is_piled && rests(state, body, support, relative, rounding, encounter.restitution);
+    // What its contact did not keep from sinking in: that belongs to the contact, and is no impact.
+    const bool only_stops = is_piled && leans && approach <= striking_speed_at(state, body, support.wall());
+    if (only_stops) encounter.restitution = 0;
+    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
+    const bool may_rest =
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, relative, encounter.restitution));
+    bool come_to_rest = may_rest && rests(state, body, support, relative, rounding, encounter.restitution);
     if (come_to_rest && support.is_driven) {
         pile_up(state.bodies, body);
         occurrence.piles_up = true;
@@ -141,7 +155,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
         occurrence.is_crushed = haste.jams && support.is_driven;
-        come_to_rest = come_to_rest || (squeezed && !is_piled && !support.is_driven &&
+        come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
                                         pressure_here(state, body, support, relative).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
@@ -160,28 +174,57 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         occurrence.entry.outer_impulse += impulse;
         occurrence.entry.prescribed_work += dot(impulse, support.velocity);
         write_down(response, occurrence);
+        occurrence.is_impact = !only_stops;
     }
     const double remaining = state.laws.kick_interval - time;
-    if (come_to_rest) {
+    if (come_to_rest && leans) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+    } else if (come_to_rest) {
         hold_against(state, body, support, remaining, occurrence.entry);
     } else if (stays) {
         refresh_hold(state, body, remaining, occurrence.entry);
     }
 }
 
+/// Undoes what roundings brought a body into a facet: in many low bounces on a surface that bends round the body, they
+/// could add up until a small one comes out on the other side.
+template <class Real>
+void put_back(State<Real>& state, Index body, std::uint32_t wall, Entry& entry) {
+    constexpr double least = 4; // units
+    constexpr double most = 64; // units; more is no rounding
+    Motion<Real>& m = state.bodies.motion[body];
+    const Touch touch = state.bounds.impact(wall, m.x, {}, static_cast<double>(m.radius), m.t, state.resolution);
+    const double depth = -touch.gap * state.resolution.per_metre;
+    if (depth < least || depth > most) return;
+    const Int3 shift = round_to_units(touch.normal * touch.gap, state.resolution);
+    m.x = m.x + shift;
+    entry.lost_to_restitution += mass_of(state, body) * dot(state.laws.gravity, to_metres(shift, state.resolution));
+}
+
 template <class Real>
 void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence) {
-    const Bounds::Wall& wall = state.bounds.walls()[event.wall()];
+    const std::uint32_t wall = event.wall();
     const Motion<Real>& m = state.bodies.motion[event.a];
-    const Vec3 d = displacement(velocity_of(m), acceleration_of(state, event.a), event.time - m.t);
-    const Encounter encounter = encounter_of(state, event.a, wall);
-    const Vec3 normal = state.bounds.normal(wall, m.x, d, state.resolution);
+    const Vec3 a = acceleration_of(state, event.a);
+    const double duration = event.time - m.t;
+    const Vec3 d = displacement(velocity_of(m), a, duration);
+    const Encounter encounter = encounter_of(state, event.a, state.bounds.surface(wall));
+    const Touch touch =
+        state.bounds.impact(wall, m.x, d, radius_at(state.bodies, event.a, event.time), event.time, state.resolution);
+    const bool at_facet = state.bounds.is_facet(wall);
+    Support support;
+    if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration);
     take_part(state, event.a, event.time, occurrence.entry);
-    Support support = support_by_wall(state, event.wall(), normal, m, growth_of(state.bodies, event.a));
+    if (at_facet) {
+        put_back(state, event.a, wall, occurrence.entry);
+    } else {
+        support = support_by_wall(state, wall, touch.normal, m, growth_of(state.bodies, event.a));
+    }
     support.friction = encounter.friction;
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
-                         .face = wall.face,
+                         .face = state.bounds.face(wall),
                          .x = m.x,
                          .arm = support.normal * static_cast<double>(m.radius),
                          .normal = support.normal};
@@ -316,7 +359,7 @@ template <class Real>
 bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& n, double e) {
     const Bodies<Real>& bodies = state.bodies;
     if (state.laws.gravity == Vec3{} || (!rests(bodies.kind[a]) && !rests(bodies.kind[b]))) return false;
-    if (bodies.kind[a] == Kind::piled && bodies.kind[b] == Kind::piled) return false;
+    if (leans(bodies.kind[a]) && leans(bodies.kind[b])) return false;
     const Vec3 pull = pull_on(state, b) - pull_on(state, a);
     const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);
     const double speed = resting_speed(e, pressing, state.laws.rest_time);
@@ -335,6 +378,7 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
         occurrence.piles_up = true;
         return;
     }
+    for (const Index body : {a, b}) occurrence.piles_up = wake(state.bodies, body) || occurrence.piles_up;
     // What grows drives the surfaces on: Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990).
     const double growth = growth_of(state.bodies, a) + growth_of(state.bodies, b);
     const Vec3 own_growth = impact.normal * growth;
@@ -374,6 +418,7 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
 template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
+    occurrence.piles_up = wake(state.bodies, body);
     const Encounter encounter = encounter_of(state, body, fixed);
     const double growth = growth_of(bodies, body) + growth_of(bodies, fixed);
     Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed], growth);

@@ -83,6 +83,16 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
     write_file(file, std::as_bytes(std::span(text)));
 }
 
+void publish(const std::filesystem::path& part, const std::filesystem::path& file) {
+    const Descriptor handle(open_retrying(part, O_RDONLY));
+    if (!handle.is_open() || ::fsync(handle.get()) != 0 || std::rename(part.c_str(), file.c_str()) != 0) {
+        const int error = errno;
+        ::unlink(part.c_str());
+        fail(file, "cannot be written", error);
+    }
+    if (!sync_folder_of(file)) fail(file, "is written, but may not survive a power failure", errno);
+}
+
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
     const Descriptor handle(open_retrying(file, O_RDONLY));
     if (!handle.is_open()) fail(file, "cannot be opened", errno);

@@ -18,6 +18,10 @@ namespace carom::scene {
 void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& file, std::string_view text);
 
+/// Brings a file that somebody else has written to the disk, and only then gives it the name `file`. Throws
+/// carom::Error{input_output} that names the file; then no part is left.
+void publish(const std::filesystem::path& part, const std::filesystem::path& file);
+
 /// The whole content of a file. Throws carom::Error{input_output} that names the file.
 std::vector<std::byte> read_file(const std::filesystem::path& file);
 

@@ -21,6 +21,13 @@ int line_of(const Scene& scene, const std::string& key) {
 SceneError option_error(const Scene& scene, const Error& error) {
     const std::string& field = error.field();
     if (field.starts_with("region")) return {scene.file, line_of(scene, "region"), field, reason_of(error)};
+    if (field.starts_with("obstacles")) {
+        // "obstacles[2].triangles" is the table obstacle[2] of the file.
+        const std::string table = field.substr(0, field.find('.'));
+        const std::string rest = field.substr(std::string_view("obstacles").size());
+        return {scene.file, line_of(scene, table == "obstacles" ? "obstacles[0]" : table), "obstacle" + rest,
+                reason_of(error)};
+    }
     const std::string key = "world." + field;
     return {scene.file, line_of(scene, key), key, reason_of(error)};
 }

@@ -1,5 +1,7 @@
 #include "scene/region_reader.hpp"
 
+#include "scene/surface_reader.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -10,12 +12,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> face_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
-
-Surface read_surface(TableReader& table, Surface surface = {}) {
-    if (const auto value = table.find("restitution")) surface.restitution = value->number(zero_to_one);
-    if (const auto value = table.find("friction")) surface.friction = value->number(not_negative);
-    return surface;
-}
 
 FaceMotion read_motion(TableReader table) {
     FaceMotion motion;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scene/scene_error.hpp"
+#include "scene/view.hpp"
 
 #include <carom/body.hpp>
 #include <carom/world.hpp>
@@ -86,6 +87,7 @@ struct Scene {
     Overlap overlap = Overlap::refuse;
     RunSettings run;
     OutputSettings outputs;
+    ViewSettings view;
     std::uint64_t seed = 1;
 
     std::string file;                 ///< where it came from; empty for a workload

@@ -1,8 +1,10 @@
 #include "scene/bodies_reader.hpp"
+#include "scene/obstacle_reader.hpp"
 #include "scene/reader.hpp"
 #include "scene/region_reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/text_file.hpp"
+#include "scene/view_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -87,12 +89,21 @@ void read_world(TableReader table, Scene& scene) {
         options.work_cap = value->count(0, std::numeric_limits<std::int64_t>::max());
     }
     table.read("interpolation", options.interpolation);
+    table.read("sleeping", options.sleeping);
     if (const auto value = table.find("overlap")) {
         constexpr std::array<std::string_view, 2> names{"refuse", "accept"};
         scene.overlap = value->choice(names) == 0 ? Overlap::refuse : Overlap::accept;
     }
     table.finish();
     for (const auto& [key, line] : table.lines()) scene.lines["world." + key] = line;
+}
+
+void read_obstacles(TableReader& top, Scene& scene) {
+    const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+    for (TableReader& table : top.tables("obstacle")) {
+        scene.lines["obstacles[" + std::to_string(scene.options.obstacles.size()) + "]"] = table.line();
+        scene.options.obstacles.push_back(read_obstacle(table, folder));
+    }
 }
 
 std::vector<Material> read_materials(TableReader& top) {
@@ -209,7 +220,9 @@ Scene read_scene(TableReader& top, const std::filesystem::path& file, const Over
         scene.lines["region"] = table->line();
         scene.options.region = read_region(table->table());
     }
+    read_obstacles(top, scene);
     if (const auto table = top.find("output")) read_output(table->table(), scene);
+    scene.view = read_view(top);
     scene.options.record_impacts = scene.outputs.record_impacts;
     const std::vector<Material> materials = read_materials(top);
     read_material_rules(top, materials, scene);

@@ -167,6 +167,7 @@ void pile(std::uint64_t bodies, Scene& scene) {
     box.faces.back() = {.kind = FaceKind::open};
     scene.options.region = box;
     scene.options.gravity = {0, 0, -gravity};
+    scene.options.sleeping = false; // what is measured is the work of those who are awake
     Random random = random_for(Purpose::positions);
     const auto place = [&](std::uint64_t n) { return spacing * (static_cast<double>(n) + 0.5); };
     std::vector<Vec3> positions(bodies);

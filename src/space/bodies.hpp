@@ -24,18 +24,22 @@ inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 /// What moves a body between impacts.
 enum class Kind : std::uint8_t {
-    free,  ///< uniform gravity
-    fixed, ///< nothing: a static body
-    held,  ///< its Hold: it rests against faces or static bodies
-    piled, ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
+    free,   ///< uniform gravity
+    fixed,  ///< nothing: a static body
+    held,   ///< its Hold: it rests against faces or static bodies
+    piled,  ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
+    asleep, ///< nothing: it is piled, but its whole island has lain still until something arrives
     kinematic, ///< its prescribed velocity: straight on, through faces and static bodies, and takes any momentum
 };
 
 /// Whether nothing that happens changes how a body moves: its mass is infinite.
 constexpr bool is_prescribed(Kind kind) { return kind == Kind::fixed || kind == Kind::kinematic; }
-
+/// Whether a body leans on others that may move.
+constexpr bool leans(Kind kind) { return kind == Kind::piled || kind == Kind::asleep; }
 /// Whether something carries a body, so that it is not in free flight.
-constexpr bool rests(Kind kind) { return kind == Kind::held || kind == Kind::piled; }
+constexpr bool rests(Kind kind) { return kind == Kind::held || leans(kind); }
+/// Whether nothing moves a body unless it is struck.
+constexpr bool is_still(Kind kind) { return kind == Kind::fixed || kind == Kind::asleep; }
 
 /// Counts a body's impacts in quick succession: state of the TC rule and of the jam rule.
 struct Flight {
@@ -100,11 +104,20 @@ struct ContactForce {
     Vec3 friction{};        ///< N, on the other
 };
 
+/// A piled body where it was when its contacts were listed.
+struct ListedBody {
+    std::uint32_t slot = 0;
+    Int3 x{};         ///< units
+    double still = 0; ///< s, how long it has lain still
+};
+
 /// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.
+template <class Real>
 struct Load {
-    Vec3 pull{};          ///< m/s^2, what all forces, those of the contacts too, last did to it
-    double pressing = 0;  ///< m/s^2, what the strongest of its contacts does to it
-    bool is_told = false; ///< all that it can meet of its pile in the piece is among its contacts, if it stays slow
+    Vector3<Real> given{}; ///< m/s, the velocity that they gave it
+    Vector3<Real> pull{};  ///< m/s^2, what all forces, those of the contacts too, last did to it
+    Real pressing = 0;     ///< m/s^2, what the strongest of its contacts does to it
+    bool is_told = false;  ///< all that it can meet of its pile in the piece is among its contacts, unless it is struck
 };
 
 /// A radius that grows.
@@ -131,8 +144,12 @@ struct Bodies {
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
     std::set<std::uint32_t> kinematics;       ///< slots of the kinematic bodies
-    std::vector<ContactForce> contacts;       ///< of the piled bodies, in their order; between steps
-    std::vector<Load> loads;                  ///< per body, inside a step with contacts
+    std::vector<ListedBody> listed;           ///< whose contacts are listed
+    std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
+    double list_age = 0;                      ///< s since it was made
+    double list_margin = 0;                   ///< m, gaps up to this are in it
+    std::vector<ContactForce> sleeping;       ///< contacts of the bodies that are asleep
+    std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
@@ -208,6 +225,27 @@ void pile_up(Bodies<Real>& bodies, Index index) {
     bodies.newly_piled = true;
 }
 
+/// Wakes a body that something meets; the others of its island are woken with the next piece.
+template <class Real>
+bool wake(Bodies<Real>& bodies, Index index) {
+    if (bodies.kind[index] != Kind::asleep) return false;
+    pile_up(bodies, index);
+    return true;
+}
+
+/// Wakes all, since what they lie on may have changed.
+template <class Real>
+void wake_all(Bodies<Real>& bodies) {
+    if (bodies.sleeping.empty()) return;
+    for (Kind& kind : bodies.kind) {
+        if (kind == Kind::asleep) kind = Kind::piled;
+    }
+    bodies.contacts.insert(bodies.contacts.end(), bodies.sleeping.begin(), bodies.sleeping.end());
+    bodies.sleeping.clear();
+    bodies.listed.clear();
+    bodies.newly_piled = true;
+}
+
 /// Lets a held body go; any other stays as it is.
 template <class Real>
 void release(Bodies<Real>& bodies, Index index) {
@@ -240,13 +278,23 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     if (++bodies.generations[slot] != 0) bodies.free_slots.push_back(slot);
 }
 
+/// The contacts are to be listed anew: what is changed from outside may touch other bodies, or in another way.
+template <class Real>
+void drop_contact_list(Bodies<Real>& bodies) {
+    bodies.newly_piled = bodies.newly_piled || !bodies.listed.empty();
+    bodies.listed.clear();
+}
+
 /// Forgets the contacts of bodies that are gone.
 template <class Real>
 void drop_stale_contacts(Bodies<Real>& bodies) {
     const auto is_gone = [&bodies](std::uint32_t slot) { return bodies.slots[slot] == no_index; };
-    std::erase_if(bodies.contacts, [&](const ContactForce& c) {
+    const std::size_t stale = std::erase_if(bodies.contacts, [&](const ContactForce& c) {
         return is_gone(c.a) || ((c.code & Support::wall_bit) == 0 && is_gone(c.code));
     });
+    const bool is_stale =
+        std::any_of(bodies.listed.begin(), bodies.listed.end(), [&](const ListedBody& l) { return is_gone(l.slot); });
+    if (stale != 0 || is_stale) drop_contact_list(bodies);
 }
 
 /// Puts the bodies into the order of the list, which is a permutation: body `order[k]` comes to place k. Cycle by

@@ -49,6 +49,13 @@ Vec3 axis_vector(std::size_t axis, double length) {
     return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
 }
 
+/// How many faces a region has in the public API.
+std::int32_t faces_of(const Region& region) {
+    if (const auto* box = std::get_if<Box>(&region)) return static_cast<std::int32_t>(box->faces.size());
+    if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) return static_cast<std::int32_t>(planes->size());
+    return std::holds_alternative<Shell>(region) ? 1 : 0;
+}
+
 /// -1 unless the unit vector lies along an axis.
 int axis_of(const Vec3& unit) {
     if (unit.y == 0 && unit.z == 0) return 0;
@@ -59,10 +66,17 @@ int axis_of(const Vec3& unit) {
 
 } // namespace
 
-Bounds::Bounds(const Region& region, const Resolution& resolution, const Int3& origin) {
+Bounds::Bounds(const Region& region, const std::vector<Obstacle>& obstacles, const Resolution& resolution,
+               const Int3& origin) {
     if (const auto* box = std::get_if<Box>(&region)) add_box(*box, resolution, origin);
     if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) add_planes(*planes, resolution, origin);
     if (const auto* shell = std::get_if<Shell>(&region)) add_shell(*shell, resolution, origin);
+    if (obstacles.empty()) return;
+    if (any_periodic()) {
+        throw Error(ErrorCode::out_of_range, "obstacles", "must not stand in a region with periodic faces");
+    }
+    obstacles_ = std::make_shared<const Obstacles>(obstacles, resolution, origin);
+    first_obstacle_ = faces_of(region);
 }
 
 void Bounds::add_box(const Box& box, const Resolution& resolution, const Int3& origin) {
@@ -266,6 +280,12 @@ Int3 Bounds::wrapped(Int3 x) const {
         component(x, axis) = period_start(axis) + offset;
     }
     return x;
+}
+
+Touch Bounds::impact(std::uint32_t wall, const Int3& x, const Vec3& d, double radius, double time,
+                     const Resolution& resolution) const {
+    if (is_facet(wall)) return obstacles_->impact(wall - first_facet(), x, d, radius);
+    return {gap(walls_[wall], x, d, radius, time, resolution), normal(walls_[wall], x, d, resolution)};
 }
 
 Vec3 Bounds::normal(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) const {

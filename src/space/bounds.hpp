@@ -1,20 +1,24 @@
 /// \file
-/// The region in the world's own units: gaps and normals of its faces, and periodic images.
+/// What surrounds the bodies, in the world's own units: gaps and normals of the region's faces, periodic images, and
+/// the obstacles.
 #pragma once
 
 #include "space/motion.hpp"
+#include "space/obstacles.hpp"
 #include "space/sum.hpp"
 
 #include <carom/region.hpp>
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace carom::core {
 
-/// The faces and periods of a Region, in units of the resolution.
+/// The faces and periods of a Region, in units of the resolution, and the facets of the obstacles, which are numbered
+/// on from the walls.
 class Bounds {
 public:
     enum class Shape : std::uint8_t { flat, shell };
@@ -34,8 +38,9 @@ public:
     };
 
     Bounds() = default;
-    /// Throws Error naming the member of the region that is refused; `origin` in units.
-    Bounds(const Region& region, const Resolution& resolution, const Int3& origin);
+    /// Throws Error naming the member of the region, or the obstacle, that is refused; `origin` in units.
+    Bounds(const Region& region, const std::vector<Obstacle>& obstacles, const Resolution& resolution,
+           const Int3& origin);
 
     [[nodiscard]] Shape shape() const { return shape_; }
     [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
@@ -69,9 +74,39 @@ public:
     template <class Archive>
     void transfer_motion(Archive& archive);
 
-    /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall in the
-    /// present step.
+    /// Null where there are none.
+    [[nodiscard]] const Obstacles* obstacles() const { return obstacles_.get(); }
+    [[nodiscard]] bool is_empty() const { return walls_.empty() && !obstacles_; }
+    /// Walls and facets.
+    [[nodiscard]] std::uint32_t size() const { return first_facet() + (obstacles_ ? obstacles_->size() : 0); }
+    [[nodiscard]] std::uint32_t first_facet() const { return static_cast<std::uint32_t>(walls_.size()); }
+    [[nodiscard]] bool is_facet(std::uint32_t wall) const { return wall >= first_facet(); }
+    [[nodiscard]] bool is_driven(std::uint32_t wall) const { return !is_facet(wall) && walls_[wall].is_driven; }
+    /// The surface of a wall or facet.
+    [[nodiscard]] const Surface& surface(std::uint32_t wall) const {
+        return is_facet(wall) ? obstacles_->surface(wall - first_facet()) : walls_[wall].surface;
+    }
+    /// The number of a wall, or of the obstacle of a facet, in the public API.
+    [[nodiscard]] std::int32_t face(std::uint32_t wall) const {
+        if (!is_facet(wall)) return walls_[wall].face;
+        return first_obstacle_ + static_cast<std::int32_t>(obstacles_->obstacle_of(wall - first_facet()));
+    }
+    /// How a body of `radius` at `x + d` (units + m) meets a wall or facet, `time` s after the start of the step.
+    [[nodiscard]] Touch impact(std::uint32_t wall, const Int3& x, const Vec3& d, double radius, double time,
+                               const Resolution& resolution) const;
+    /// How one at `x` lies on it.
+    [[nodiscard]] Touch contact(std::uint32_t wall, const Int3& x, double radius, double time,
+                                const Resolution& resolution) const {
+        return is_facet(wall) ? obstacles_->contact(wall - first_facet(), x, radius)
+                              : impact(wall, x, {}, radius, time, resolution);
+    }
+
+    /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall or
+    /// facet in the present step.
     [[nodiscard]] bool may_touch(const Int3& x, double reach, const Resolution& resolution) const {
+        return may_touch_wall(x, reach, resolution) || (obstacles_ && obstacles_->may_touch(x, reach));
+    }
+    [[nodiscard]] bool may_touch_wall(const Int3& x, double reach, const Resolution& resolution) const {
         // A little more than rounding can change, and the tolerance that lets touching bodies come to rest.
         const double units = reach * resolution.per_metre * (1 + 1e-9) + 4;
         constexpr double far = 1.0e17;
@@ -122,6 +157,8 @@ private:
     Int3 low_{lowest, lowest, lowest};     ///< units; no axis-aligned wall beyond
     Int3 high_{highest, highest, highest}; ///< units
     std::vector<Wall> walls_;
+    std::shared_ptr<const Obstacles> obstacles_; ///< never changes: copies of a world share it
+    std::int32_t first_obstacle_ = 0;            ///< its number in the public API
     std::array<std::int64_t, 3> period_{};
     Int3 period_start_{};
     double shell_radius_ = 0;

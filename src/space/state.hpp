@@ -28,6 +28,7 @@ struct Laws {
     double quick_time = 0;    ///< s, of the TC rule: shorter flights are quick
     double contact_time = 0;  ///< s, how long bodies that lean on each other touch; 0 without gravity
     double collapse_time = 0; ///< s, how long an impact is remembered
+    bool sleeping = true;     ///< islands that lie still fall asleep
     double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
     std::vector<MaterialRule> rules{};
     std::vector<PointField> fields{};
@@ -93,12 +94,12 @@ Encounter encounter_of(const State<Real>& state, Index a, Index b) {
     return encounter_of(state.laws, state.bodies, a, state.bodies, b);
 }
 
-/// How a body meets a face: the face's e and mu where it has them, else the body's.
+/// How a body meets a face or an obstacle: the surface's e and mu where it has them, else the body's.
 template <class Real>
-Encounter encounter_of(const State<Real>& state, Index body, const Bounds::Wall& wall) {
+Encounter encounter_of(const State<Real>& state, Index body, const Surface& surface) {
     const Bodies<Real>& bodies = state.bodies;
-    return {wall.surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
-            wall.surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
+    return {surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
+            surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
 }
 
 /// What accelerates a body between impacts, m/s^2.
@@ -111,6 +112,7 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
         return hold_of(state.bodies, i).acceleration;
     case Kind::fixed:
     case Kind::piled:
+    case Kind::asleep:
     case Kind::kinematic:
         break;
     }
@@ -120,8 +122,9 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
 /// m/s^2, what accelerates a body as far as it presses on others.
 template <class Real>
 Vec3 pull_on(const State<Real>& state, Index i) {
-    const bool is_solved = state.bodies.kind[i] == Kind::piled && i < state.bodies.loads.size();
-    return is_solved ? state.bodies.loads[i].pull : acceleration_of(state, i);
+    if (state.bodies.kind[i] != Kind::piled || i >= state.bodies.loads.size()) return acceleration_of(state, i);
+    const Vector3<Real>& pull = state.bodies.loads[i].pull;
+    return {static_cast<double>(pull.x), static_cast<double>(pull.y), static_cast<double>(pull.z)};
 }
 
 /// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.
@@ -211,7 +214,7 @@ void advance(State<Real>& state, Index i, double s, Entry& entry) {
     const Vec3 d = move_on(m, a, s, state.resolution);
     if (!state.bodies.growth.empty()) m.radius = static_cast<Real>(radius_at(state.bodies, i, s));
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
-    if (state.bodies.kind[i] == Kind::piled) {
+    if (leans(state.bodies.kind[i])) {
         // What creeps by less than the resolution stays, and gravity does no work on it.
         book_piled_way(state, i, to_metres(m.x - start, state.resolution), duration, entry);
     }

@@ -192,6 +192,9 @@ void Vicinity<Real>::build(const Census& census, double way) {
     lead_ = share * horizon_;
     middle_ = static_cast<float>(lead_);
     typical_room_ = way * windows * (1 - share);
+    // Piled bodies creep for long, and have few others to look for: large covers cost them nothing.
+    constexpr double creep = 0.05;
+    if (has_pile_) typical_room_ = std::max(typical_room_, creep * census.mean_radius);
     typical_size_ = std::max(2 * (census.mean_radius + typical_room_), state_.resolution.metres);
     ticks_ = Ticks(state_.bounds, state_.resolution, typical_size_);
     const auto [x, y, z] = ticks_.metres_per_tick();
@@ -322,20 +325,28 @@ double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& accel
            2 * state_.resolution.metres;
 }
 
-/// Whether the contacts of a pile tell what a body may meet of it.
+/// How far the contacts of a pile tell what a body may meet of it.
+template <class Real>
+auto Vicinity<Real>::telling_of(Index body) const -> Telling {
+    const Bodies<Real>& bodies = state_.bodies;
+    if (is_still(bodies.kind[body])) return {.unless_struck = true, .if_slow = true};
+    if (bodies.kind[body] != Kind::piled || body >= bodies.loads.size() || !bodies.loads[body].is_told) return {};
+    const Motion<Real>& m = bodies.motion[body];
+    return {.unless_struck = m.v == bodies.loads[body].given,
+            .if_slow = length_squared(velocity_of(m)) <= told_speed_ * told_speed_};
+}
+
 template <class Real>
 bool Vicinity<Real>::is_told(Index body) const {
-    const Bodies<Real>& bodies = state_.bodies;
-    return bodies.kind[body] == Kind::piled && body < bodies.loads.size() && bodies.loads[body].is_told &&
-           length_squared(velocity_of(bodies.motion[body])) <= told_speed_ * told_speed_;
+    const Telling telling = telling_of(body);
+    return telling.unless_struck || telling.if_slow;
 }
 
 template <class Real>
 bool Vicinity<Real>::are_told(Index a, Index b) const {
-    const Kind kind_a = state_.bodies.kind[a];
-    const Kind kind_b = state_.bodies.kind[b];
-    if (kind_a != Kind::piled && kind_b != Kind::piled) return false;
-    return (kind_a == Kind::fixed || is_told(a)) && (kind_b == Kind::fixed || is_told(b));
+    const Telling of_a = telling_of(a);
+    const Telling of_b = telling_of(b);
+    return (of_a.unless_struck && of_b.unless_struck) || (of_a.if_slow && of_b.if_slow);
 }
 
 /// What the calendar has for this window, and the suspects.
@@ -631,7 +642,7 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
-    if (state_.bounds.walls().empty() || is_prescribed(state_.bodies.kind[body]) || earliest >= windows_) return;
+    if (state_.bounds.is_empty() || is_prescribed(state_.bodies.kind[body]) || earliest >= windows_) return;
     // Contacts tell of walls that rest.
     if (is_told(body) && !state_.bounds.any_driven()) return;
     if (rests(state_.bodies.kind[body])) {
@@ -670,6 +681,11 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
         const double speed = own + state_.bodies.top_growth + (wall.is_driven ? Bounds::top_speed(wall) : 0);
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
+    }
+    if (const Obstacles* obstacles = state_.bounds.obstacles()) {
+        const double reach = reach_of(m, g, epoch_ + windows_ * length_ * (1 + slack)) + margin;
+        const double gap = obstacles->distance(m.x, reach) - (radius + margin);
+        first = std::min(first, time_to_cover(gap, length(v), length(g)));
     }
     return first;
 }

@@ -54,10 +54,11 @@ public:
     void disturb(Index body) {
         if (epoch_valid_) disturbed_.push_back(body);
     }
-    /// A piece begins. Of the piled bodies that are *told* of, as long as they are not faster than `told_speed` (m/s),
-    /// only the suspects may meet each other, a static body, or a wall.
-    void begin_piece(double told_speed) {
+    /// A piece begins. Of the piled bodies that are *told* of, as long as nothing has struck them, or they are not
+    /// faster than `told_speed` (m/s), only the suspects may meet each other, a static body, or a wall.
+    void begin_piece(double told_speed, bool has_pile) {
         told_speed_ = told_speed;
+        has_pile_ = has_pile;
         clear_for_reuse(suspects_);
         clear_for_reuse(wall_suspects_);
     }
@@ -141,6 +142,12 @@ private:
     void collect_due();
     void renew_disturbed();
     void renew_exits();
+    /// Whether the suspects are all that a body may meet of its pile.
+    struct Telling {
+        bool unless_struck = false; ///< it still goes as the contacts have it go
+        bool if_slow = false;       ///< it is too slow to strike another slow one
+    };
+    [[nodiscard]] Telling telling_of(Index body) const;
     [[nodiscard]] bool is_told(Index body) const;
     [[nodiscard]] bool are_told(Index a, Index b) const;
     void charge_led();
@@ -240,6 +247,7 @@ private:
     std::vector<Pair> suspects_;
     std::vector<Index> wall_suspects_;
     double told_speed_ = 0; ///< m/s
+    bool has_pile_ = false;
     std::array<std::vector<Pair>, most_parts> kept_;
 };
 

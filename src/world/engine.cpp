@@ -91,9 +91,10 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
       placement_(state_) {
     const WorldOptions& options = setting_.options;
     state_.resolution = setting_.resolution;
-    state_.bounds = Bounds(options.region, setting_.resolution, setting_.first_origin);
+    state_.bounds = Bounds(options.region, options.obstacles, setting_.resolution, setting_.first_origin);
     state_.laws.gravity = options.gravity;
     state_.laws.rest_time = options.rest_time;
+    state_.laws.sleeping = options.sleeping;
     state_.laws.quick_time = options.collapse_time;
     set_contact_time(state_.laws, state_.resolution);
     state_.laws.rules = options.material_rules;
@@ -115,6 +116,8 @@ void Engine<Real>::set_gravity(const Vec3& gravity) {
     check_finite(gravity, "gravity");
     setting_.options.gravity = state_.laws.gravity = gravity;
     set_contact_time(state_.laws, state_.resolution);
+    wake_all(state_.bodies);
+    drop_contact_list(state_.bodies);
     islands_.vicinity().forget();
 }
 
@@ -140,6 +143,7 @@ void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
     }
     attractors_.assign(attractors.begin(), attractors.end());
     attractor_places_ = std::move(places);
+    if (!attractors_.empty()) wake_all(state_.bodies);
 }
 
 template <class Real>
@@ -159,6 +163,8 @@ void Engine<Real>::set_face_motion(std::int32_t face, const FaceMotion& motion) 
         planes->at(static_cast<std::size_t>(face)).motion = motion;
     }
     release_from(state_.bodies, Support::wall_bit | wall);
+    wake_all(state_.bodies);
+    drop_contact_list(state_.bodies);
     islands_.vicinity().forget();
 }
 

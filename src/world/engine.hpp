@@ -57,6 +57,7 @@ public:
     [[nodiscard]] const Clock& clock() const noexcept { return clock_; }
     [[nodiscard]] const StepReport& report() const noexcept { return report_; }
     [[nodiscard]] std::span<const Impact> impacts() const noexcept { return impacts_; }
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept { return contact_changes_; }
 
     // engine.cpp
     [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
@@ -108,6 +109,8 @@ private:
     void check_moved(const std::vector<Index>& indices);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
     void set_growth(std::span<const double> rates, std::span<const Index> indices);
+    [[nodiscard]] std::vector<Kind> kinds_of(std::span<const Index> indices) const;
+    void wake_all_for(std::span<const Kind> kinds);
     void drop_attractors_of(BodyId id);
     [[nodiscard]] Vec3 metres_from(const Int3& zero, const Int3& x) const {
         return {metres_between(zero.x, x.x, setting_.resolution), metres_between(zero.y, x.y, setting_.resolution),
@@ -117,6 +120,8 @@ private:
 
     // engine_contacts.cpp
     [[nodiscard]] Contact contact_of(Index body, std::uint32_t code) const;
+    void find_touching(std::vector<ContactChange>& touching) const;
+    void note_contact_changes();
     void add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const;
 
     // engine_step.cpp
@@ -131,6 +136,8 @@ private:
     Progress resolve_piece(const Census& census, const Window& all, std::uint32_t windows);
     Progress resolve_window(const Census& census, const Window& window);
     /// Drag or attractors change velocities at the ends of steps.
+    [[nodiscard]] bool is_asleep() const;
+    const StepReport& sleep_on(double dt);
     [[nodiscard]] bool has_kicks() const;
     void start_holds(double dt);
     /// Bodies were changed from outside.
@@ -176,6 +183,9 @@ private:
     Ledger ledger_;
     StepReport report_;
     Outcome outcome_;
+    std::vector<ContactChange> contact_changes_;
+    std::vector<ContactChange> touched_;  ///< when the step began
+    std::vector<ContactChange> touching_; ///< when it ended
     std::vector<Impact> impacts_;
     std::shared_ptr<Executor> executor_;
     Pile<Real> pile_;

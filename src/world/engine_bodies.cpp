@@ -131,7 +131,12 @@ void Engine<Real>::check_values(const ConstBodyColumns& columns, std::size_t cou
     for (std::size_t k = 0; k < columns.velocity.size(); ++k) check_velocity<Real>(columns.velocity[k], k);
     for (std::size_t k = 0; k < columns.mass.size(); ++k) check_mass<Real>(columns.mass[k], k);
     for (std::size_t k = 0; k < columns.radius.size(); ++k) check_radius(columns.radius[k], k);
-    for (std::size_t k = 0; k < columns.growth.size(); ++k) check_finite(columns.growth[k], "growth", k);
+    for (std::size_t k = 0; k < columns.growth.size(); ++k) {
+        check_finite(columns.growth[k], "growth", k);
+        if (columns.growth[k] != 0 && state_.bounds.obstacles() != nullptr) {
+            throw Error(ErrorCode::out_of_range, "growth", "must be 0 in a world with obstacles", k);
+        }
+    }
     for (std::size_t k = 0; k < columns.restitution.size(); ++k) {
         check_fraction(columns.restitution[k], "restitution", k);
     }
@@ -161,6 +166,15 @@ void Engine<Real>::check_inside(const Motion<Real>& motion, std::size_t place) c
                     "reaches " + shown(-gap) + " m through face " + std::to_string(wall.face) + " of the region",
                     place);
     }
+    const Obstacles* obstacles = state_.bounds.obstacles();
+    if (obstacles == nullptr) return;
+    obstacles->for_each_near(motion.x, radius, [&](std::uint32_t facet) {
+        const double gap = obstacles->impact(facet, motion.x, {}, radius).gap;
+        if (gap >= -touching_tolerance(state_, 2 * radius)) return;
+        throw Error(ErrorCode::overlap, "position",
+                    "reaches " + shown(-gap) + " m into obstacle " + std::to_string(obstacles->obstacle_of(facet)),
+                    place);
+    });
 }
 
 template <class Real>
@@ -259,6 +273,12 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         ids[k] = give_id(indices[k]);
     }
     set_growth(columns.growth, indices);
+    const bool has_prescribed =
+        std::any_of(columns.mass.begin(), columns.mass.end(), [](double m) { return std::isinf(m); });
+    if (has_prescribed) {
+        wake_all(state_.bodies);
+        drop_contact_list(state_.bodies);
+    }
     return ids;
 }
 
@@ -371,15 +391,14 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     check_values(columns, ids.size());
     const std::vector<Index> indices = indices_of(ids);
     forget_sums();
-    const std::vector<Kind> former_kinds = [&] {
-        std::vector<Kind> kinds(indices.size());
-        for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
-        return kinds;
-    }();
+    const std::vector<Kind> former_kinds = kinds_of(indices);
     move_bodies(columns, indices, overlap);
     write_columns(columns, indices);
+    wake_all_for(former_kinds);
     const bool moved =
         !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
+    const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
+    if (moved || meets_otherwise) drop_contact_list(state_.bodies);
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);
@@ -391,7 +410,9 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
         if (former == Kind::held) state_.bodies.holds.erase(ids[k].slot);
         if (former == Kind::kinematic) state_.bodies.kinematics.erase(ids[k].slot);
         if (kind == Kind::kinematic) state_.bodies.kinematics.insert(ids[k].slot);
-        if (kind != former && is_prescribed(kind)) islands_.vicinity().forget();
+        if (kind == former || !is_prescribed(kind)) continue;
+        islands_.vicinity().forget();
+        drop_contact_list(state_.bodies);
     }
 }
 
@@ -406,6 +427,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
                     static_cast<std::size_t>(ids.rend() - last) - 1);
     }
     islands_.vicinity().forget();
+    wake_all_for(kinds_of(indices_of(ids)));
     for (const BodyId id : ids) {
         forget_sums();
         const Index index = state_.bodies.slots[id.slot];
@@ -415,6 +437,19 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         if (index < size()) placement_.note(index, index);
     }
     drop_stale_contacts(state_.bodies);
+}
+
+template <class Real>
+std::vector<Kind> Engine<Real>::kinds_of(std::span<const Index> indices) const {
+    std::vector<Kind> kinds(indices.size());
+    for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = state_.bodies.kind[indices[k]];
+    return kinds;
+}
+
+/// Wakes everybody if one of some bodies was asleep, or others may lie on it.
+template <class Real>
+void Engine<Real>::wake_all_for(std::span<const Kind> kinds) {
+    if (std::any_of(kinds.begin(), kinds.end(), is_still)) wake_all(state_.bodies);
 }
 
 template <class Real>
@@ -453,6 +488,7 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
         for (std::size_t j = k + 1; j-- > 0;) bodies.motion[indices[j]].v = formers[j];
         throw Error(ErrorCode::out_of_range, field, "the velocity does not fit the world's precision", k);
     }
+    wake_all_for(kinds_of(indices));
     for (const Index i : indices) {
         let_go(bodies, i);
         islands_.vicinity().disturb(i);

@@ -26,6 +26,11 @@ std::array<double, 3> share_out(const Vec3& push, const std::vector<Support>& su
     return shares;
 }
 
+/// The order of contacts. A face's id is not set, which is the last of all.
+constexpr auto comes_before = [](const auto& x, const auto& y) {
+    return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
+};
+
 } // namespace
 
 /// Where and against what a body touches, without the force.
@@ -34,9 +39,9 @@ Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
     const Motion<Real>& m = state_.bodies.motion[body];
     Contact contact{.a = id_of(state_.bodies.slot[body])};
     if ((code & Support::wall_bit) != 0) {
-        const Bounds::Wall& wall = state_.bounds.walls()[code & ~Support::wall_bit];
-        contact.face = wall.face;
-        contact.normal = state_.bounds.normal(wall, m.x, {}, state_.resolution);
+        const std::uint32_t wall = code & ~Support::wall_bit;
+        contact.face = state_.bounds.face(wall);
+        contact.normal = state_.bounds.contact(wall, m.x, static_cast<double>(m.radius), 0, state_.resolution).normal;
     } else {
         contact.b = id_of(code);
         const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[code]];
@@ -69,19 +74,50 @@ template <class Real>
 std::vector<Contact> Engine<Real>::contacts() const {
     std::vector<Contact> contacts;
     contacts.reserve(state_.bodies.contacts.size() + state_.bodies.holds.size());
-    for (const ContactForce& force : state_.bodies.contacts) {
-        const Index body = state_.bodies.slots[force.a];
-        if (state_.bodies.kind[body] != Kind::piled) continue;
-        Contact& contact = contacts.emplace_back(contact_of(body, force.code));
-        contact.force = force.normal;
-        contact.friction = force.friction;
+    for (const auto* forces : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
+        for (const ContactForce& force : *forces) {
+            if (!(force.normal > 0)) continue;
+            const Index body = state_.bodies.slots[force.a];
+            if (!leans(state_.bodies.kind[body])) continue;
+            Contact& contact = contacts.emplace_back(contact_of(body, force.code));
+            contact.force = force.normal;
+            contact.friction = force.friction;
+        }
     }
     for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
-    // A face's id is not set, which is the last of all.
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
-        return std::tuple(x.a.slot, x.b.slot, x.face) < std::tuple(y.a.slot, y.b.slot, y.face);
-    });
+    // A body may touch an obstacle in several places.
+    std::stable_sort(contacts.begin(), contacts.end(), comes_before);
     return contacts;
+}
+
+/// Whom a step finds in contact, in the order of contacts().
+template <class Real>
+void Engine<Real>::find_touching(std::vector<ContactChange>& touching) const {
+    touching.clear();
+    for (const Contact& contact : contacts()) touching.push_back({contact.a, contact.b, contact.face});
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+}
+
+/// What has changed since the step began.
+template <class Real>
+void Engine<Real>::note_contact_changes() {
+    find_touching(touching_);
+    const auto take = [this](ContactChange change, bool has_begun) {
+        change.has_begun = has_begun;
+        contact_changes_.push_back(change);
+    };
+    auto before = touched_.begin();
+    auto now = touching_.begin();
+    while (before != touched_.end() || now != touching_.end()) {
+        if (now == touching_.end() || (before != touched_.end() && comes_before(*before, *now))) {
+            take(*before++, false);
+        } else if (before == touched_.end() || comes_before(*now, *before)) {
+            take(*now++, true);
+        } else {
+            ++before;
+            ++now;
+        }
+    }
 }
 
 template Contact Engine<float>::contact_of(Index, std::uint32_t) const;
@@ -90,5 +126,9 @@ template void Engine<float>::add_held(std::uint32_t, const Hold&, std::vector<Co
 template void Engine<double>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
 template std::vector<Contact> Engine<float>::contacts() const;
 template std::vector<Contact> Engine<double>::contacts() const;
+template void Engine<float>::find_touching(std::vector<ContactChange>&) const;
+template void Engine<double>::find_touching(std::vector<ContactChange>&) const;
+template void Engine<float>::note_contact_changes();
+template void Engine<double>::note_contact_changes();
 
 } // namespace carom::core

@@ -119,6 +119,7 @@ const StepReport& Engine<Real>::step(double dt) {
                     "must be at most " + shown(Clock::longest_interval) + " s, got " + shown(dt));
     }
     state_.laws.fields = placed_fields();
+    if (is_asleep()) return sleep_on(dt);
     const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
     state_.bounds.check_motion(dt, setting_.resolution);
@@ -141,6 +142,24 @@ const StepReport& Engine<Real>::step(double dt) {
     return report_;
 }
 
+/// Whether nothing can happen.
+template <class Real>
+bool Engine<Real>::is_asleep() const {
+    const std::vector<Kind>& kinds = state_.bodies.kind;
+    return !state_.bodies.sleeping.empty() && std::all_of(kinds.begin(), kinds.end(), is_still);
+}
+
+/// A step in which nothing happens.
+template <class Real>
+const StepReport& Engine<Real>::sleep_on(double dt) {
+    begin_step(dt);
+    pile_.begin_step();
+    pile_.end_step(dt);
+    for (RecentFlight& recent : state_.bodies.recent_flights) recent.flight.last_impact -= dt;
+    finish_step(dt, dt);
+    return report_;
+}
+
 template <class Real>
 bool Engine<Real>::has_kicks() const {
     const Drag& drag = setting_.options.drag;
@@ -159,6 +178,8 @@ void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
     state_.bounds.begin_step(dt, setting_.resolution);
+    contact_changes_.clear();
+    if (setting_.options.record_contacts) find_touching(touched_);
     clear_for_reuse(impacts_);
     outcome_ = {};
     outcome_.least_impulse = setting_.options.least_recorded_impulse;
@@ -211,7 +232,7 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
 template <class Real>
 void Engine<Real>::tell_of_pile() {
     Vicinity<Real>& vicinity = islands_.vicinity();
-    vicinity.begin_piece(pile_.told_speed());
+    vicinity.begin_piece(pile_.told_speed(), pile_.is_active());
     pile_.for_each_strike([&vicinity](Index a, Index b) {
         if (b == no_index) {
             vicinity.suspect_at_wall(a);
@@ -219,7 +240,7 @@ void Engine<Real>::tell_of_pile() {
             vicinity.suspect(a, b);
         }
     });
-    pile_.for_each_untold([&vicinity](Index body) { vicinity.disturb(body); });
+    for (const Index body : pile_.untold()) vicinity.disturb(body);
 }
 
 template <class Real>
@@ -364,7 +385,9 @@ void Engine<Real>::finish_step(double dt, double reached) {
     report_.face_impacts = outcome_.face_impacts;
     report_.tc_conversions = outcome_.tc_conversions;
     report_.held = state_.bodies.holds.size() + pile_.size();
-    report_.contacts = state_.bodies.contacts.size();
+    report_.asleep = pile_.asleep();
+    if (setting_.options.record_contacts) note_contact_changes();
+    report_.contacts = pile_.contacts();
     for (const auto& [slot, hold] : state_.bodies.holds) report_.contacts += hold.supports.size();
     ledger_.impacts += outcome_.impacts;
     ledger_.face_impacts += outcome_.face_impacts;
@@ -398,9 +421,9 @@ void Engine<Real>::positions_at(double time, std::span<const BodyId> ids, std::s
     }
     check_finite(time, "time");
     const double end = clock_.seconds();
-    // The time of an impact, a rounded sum, may be a little late.
+    // The time of an impact, a rounded sum, may be a little late, and time() - report().advanced a little early.
     const double slack = 2 * std::numeric_limits<double>::epsilon() * end;
-    if (time > end + slack || time < last_start_) {
+    if (time > end + slack || time < last_start_ - slack) {
         throw Error(ErrorCode::out_of_range, "time",
                     "must lie in the last step, [" + shown(last_start_) + ", " + shown(end) + "] s, got " +
                         shown(time));

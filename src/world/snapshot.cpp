@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 6;
+constexpr std::uint32_t snapshot_version = 8;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -90,6 +90,27 @@ void transfer(Archive& archive, Region& region) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, Frustum& frustum) {
+    archive(frustum.base, frustum.axis, frustum.height, frustum.base_radius, frustum.top_radius, frustum.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Mesh& mesh) {
+    archive(mesh.vertices, mesh.triangles, mesh.surface);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Obstacle& obstacle) {
+    auto kind = static_cast<std::uint32_t>(obstacle.index());
+    archive(kind);
+    if constexpr (Archive::reading) {
+        if (kind > 1) refuse("names an unknown kind of obstacle");
+        if (kind == 1) obstacle = Mesh{};
+    }
+    std::visit([&archive](auto& shape) { archive(shape); }, obstacle);
+}
+
+template <class Archive>
 void transfer(Archive& archive, BodyId& id) {
     archive(id.slot, id.generation, id.world);
 }
@@ -101,9 +122,9 @@ void transfer(Archive& archive, Attractor& attractor) {
 
 template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
-    archive(o.gravity, o.region, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic, o.material_rules,
-            o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference, o.record_impacts,
-            o.least_recorded_impulse, o.interpolation);
+    archive(o.gravity, o.region, o.obstacles, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic,
+            o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference,
+            o.record_impacts, o.least_recorded_impulse, o.interpolation, o.sleeping, o.record_contacts);
 }
 
 template <class Archive, class Real>
@@ -157,6 +178,11 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 template <class Archive>
 void transfer(Archive& archive, Growth& growth) {
     archive(growth.radius, growth.rate);
+}
+
+template <class Archive>
+void transfer(Archive& archive, ListedBody& listed) {
+    archive(listed.slot, listed.x, listed.still);
 }
 
 template <class Archive>
@@ -248,9 +274,9 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.contacts,
-            b.piece_rate, b.recent_flights, state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_,
-            last_step_);
+    archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.listed,
+            b.contacts, b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books,
+            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
     state_.bounds.transfer_motion(archive);
 }
@@ -269,6 +295,8 @@ std::vector<std::byte> Engine<Real>::save() const {
     }
     reorder(ordered, order);
     ordered.for_each_column([this](auto& column) { column.normalise(size()); });
+    std::sort(ordered.listed.begin(), ordered.listed.end(),
+              [](const ListedBody& a, const ListedBody& b) { return a.slot < b.slot; });
     self.transfer(body, ordered);
     const std::vector<std::byte> payload = body.take();
     Writer frame;
@@ -346,6 +374,7 @@ bool Engine<Real>::bodies_are_sound() const {
         check_finite(velocity_of(m), "velocity", i);
         check_radius(static_cast<double>(m.radius), i);
         check_finite(growth_of(b, i), "growth", i);
+        if (growth_of(b, i) != 0 && state_.bounds.obstacles() != nullptr) return false;
         if (static_cast<Real>(radius_at(b, i, 0)) != m.radius) return false;
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
@@ -374,7 +403,7 @@ bool Engine<Real>::holds_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const auto stands = [&](const Support& s) {
         check_finite(s.normal, "support");
-        if (s.is_wall()) return s.wall() < state_.bounds.walls().size();
+        if (s.is_wall()) return s.wall() < state_.bounds.first_facet();
         return s.code < b.slots.size() && b.slots[s.code] != no_index && b.kind[b.slots[s.code]] == Kind::fixed;
     };
     return std::all_of(b.holds.begin(), b.holds.end(), [&](const auto& entry) {
@@ -390,13 +419,31 @@ template <class Real>
 bool Engine<Real>::contacts_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     check_not_negative(b.piece_rate, "piece_rate");
+    check_not_negative(b.list_age, "list_age");
+    check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
-    return std::all_of(b.contacts.begin(), b.contacts.end(), [&](const ContactForce& c) {
-        check_not_negative(c.normal, "contact");
-        check_finite(c.friction, "contact");
-        const bool is_wall = (c.code & Support::wall_bit) != 0;
-        return exists(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.walls().size() : exists(c.code));
-    });
+    const auto is_asleep = [&](std::uint32_t slot) { return exists(slot) && b.kind[b.slots[slot]] == Kind::asleep; };
+    const auto can_lean = [](Kind kind) { return !is_still(kind) && !is_prescribed(kind); };
+    std::vector<bool> is_listed(b.slots.size(), false);
+    for (const ListedBody& l : b.listed) {
+        check_not_negative(l.still, "listed");
+        if (!exists(l.slot) || is_listed[l.slot] || !can_lean(b.kind[b.slots[l.slot]])) return false;
+        is_listed[l.slot] = true;
+    }
+    const auto can_bear = [&](std::uint32_t slot) {
+        return exists(slot) && (b.listed.empty() || is_listed[slot] || is_prescribed(b.kind[b.slots[slot]]));
+    };
+    const auto are_sound = [&](const std::vector<ContactForce>& contacts, const auto& leans, const auto& bears) {
+        return std::all_of(contacts.begin(), contacts.end(), [&](const ContactForce& c) {
+            check_not_negative(c.normal, "contact");
+            check_finite(c.friction, "contact");
+            const bool is_wall = (c.code & Support::wall_bit) != 0;
+            return leans(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
+        });
+    };
+    const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && !is_prescribed(b.kind[b.slots[slot]]); };
+    const auto is_still_slot = [&](std::uint32_t slot) { return exists(slot) && is_still(b.kind[b.slots[slot]]); };
+    return are_sound(b.contacts, is_awake, can_bear) && are_sound(b.sleeping, is_asleep, is_still_slot);
 }
 
 template <class Real>
@@ -428,14 +475,16 @@ std::uint64_t Engine<Real>::hash() const {
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
         if (growth_of(state_.bodies, i) != 0) hasher(state_.bodies.growth[i].radius, state_.bodies.growth[i].rate);
-        if (state_.bodies.kind[i] == Kind::piled) hasher(Kind::piled);
+        if (leans(state_.bodies.kind[i])) hasher(state_.bodies.kind[i]);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
-    hasher(state_.bodies.piece_rate);
-    for (const ContactForce& c : state_.bodies.contacts) {
-        hasher(c.a, c.code, c.normal);
-        hasher.vector(c.friction);
+    hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin);
+    for (const auto* contacts : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
+        for (const ContactForce& c : *contacts) {
+            hasher(c.a, c.code, c.normal);
+            hasher.vector(c.friction);
+        }
     }
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
         if (wall.is_driven || wall.offset != 0) hasher(wall.offset, wall.phase.value());

@@ -171,6 +171,10 @@ const StepReport& World::report() const noexcept {
     return std::visit([](const auto& engine) -> const StepReport& { return engine.report(); }, impl_->engine);
 }
 
+std::span<const ContactChange> World::contact_changes() const noexcept {
+    return impl_->pass([](const auto& engine) { return engine.contact_changes(); });
+}
+
 std::vector<Contact> World::contacts() const {
     return impl_->pass([](const auto& engine) { return engine.contacts(); });
 }

@@ -20,10 +20,11 @@ def blocks(page, language):
 
 
 def commands(page):
-    """The lines of code blocks that begin with `carom`, and the exit codes that stand behind them."""
+    """The lines of code blocks that begin with `carom`, and the exit codes that stand behind them. Windows are for
+    test_view.py."""
     for block in blocks(page, "sh"):
         for line in block.splitlines():
-            if line.startswith("carom "):
+            if line.startswith("carom ") and not line.startswith("carom view "):
                 code = re.search(r"exit code (\d)", line)
                 yield shlex.split(line.partition("#")[0])[1:], int(code.group(1)) if code else 0
 
@@ -44,14 +45,17 @@ class Documentation(CliTest):
                 self.carom(*arguments, expect=code)
 
     def test_scenes(self):
-        scene, faces = blocks(SCENES, "toml")
+        scene, faces, obstacle = blocks(SCENES, "toml")
         self.write("ball.toml", scene)
         self.assertEqual(self.json("run", "ball.toml", "--time", 1)["face_impacts"], 0)
         self.write("faces.toml", scene.replace("max = [10, 10, 10]\n", "max = [10, 10, 10]\n" + faces))
         self.assertEqual(self.json("run", "faces.toml")["contacts"], 1)
+        under = scene.replace("position = [5, 5, 9]", "position = [0.5, 0.5, 5]").replace("min = [0, 0, 0]", "min = [-9, -9, 0]")
+        self.write("obstacle.toml", under + obstacle)
+        self.assertGreater(self.json("run", "obstacle.toml", "--time", 2)["face_impacts"], 0)
 
     def test_every_option_is_described(self):
-        for command in ("run", "bench", "validate", "info", "diff"):
+        for command in ("run", "bench", "validate", "view", "render", "info", "diff"):
             for option in set(re.findall(r"--[a-z-]+", self.carom(command, "--help")[0])) - {"--help"}:
                 self.assertTrue(f"`{option}" in PAGE, f"{command} {option}")
 

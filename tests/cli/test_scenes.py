@@ -102,6 +102,26 @@ class Scenes(CliTest):
         self.assertGreater(summary["impacts"], 10)
         self.assertLess(abs(summary["energy_drift"]), 1e-9)
 
+    def test_hopper(self):
+        summary, rows = self.whole("hopper", max_overlap=0.1)
+        mass = 600 * 1000 * math.pi / 6 * 0.16**3
+        # They lie on the floor: a heap less than three diameters high on average.
+        self.assertLess(summary["energy_final"], mass * 9.81 * 3 * 0.16)
+        self.assertLess(summary["kinetic_final"], 1e-6 * mass)
+        self.assertAlmostEqual(summary["energy_final"] + summary["energy_lost"], summary["energy_initial"],
+                               delta=1e-9 * summary["energy_initial"])
+
+    def test_avalanche(self):
+        summary, rows = self.whole("avalanche", max_overlap=0.1)
+        boulder = 2500 * math.pi / 6 * 1.6**3
+        stones = 240 * 2500 * math.pi / 6 * 0.3**3
+        # Before the boulder arrives the stones lie still: what moves is the boulder alone, in free fall.
+        row = self.row_at(rows, 3.5)
+        fall = 0.5 * boulder * (0.5**2 + (9.81 * row["time"])**2)
+        self.assertLess(abs(row["kinetic"] - fall), 1e-3 * stones)
+        self.assertGreater(summary["impacts"], self.row_at(rows, 3.5)["impacts"])
+        self.assertLess(summary["kinetic_final"], 1e-6 * stones)
+
     def test_asteroids(self):
         summary, rows = self.whole("asteroids")
         self.assertEqual(summary["bodies"], 20301)

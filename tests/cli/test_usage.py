@@ -18,19 +18,19 @@ class Usage(CliTest):
 
     def test_help_names_commands_and_exit_codes(self):
         out, _ = self.carom("--help")
-        for word in ("run", "bench", "validate", "info", "diff", "Exit codes", "130", "143"):
+        for word in ("run", "bench", "validate", "view", "render", "info", "diff", "Exit codes", "130", "143"):
             self.assertIn(word, out)
-        for command in ("run", "bench", "validate", "info", "diff"):
+        for command in ("run", "bench", "validate", "view", "render", "info", "diff"):
             self.assertIn("usage", self.carom(command, "--help")[0].lower())
 
     def test_version(self):
         self.assertRegex(self.carom("--version")[0], r"^carom \d+\.\d+\.\d+\n$")
 
     def test_commands(self):
-        for arguments in ([], ["fly"], ["run"], ["bench"], ["bench", "gas"], ["diff", "a"], ["info", "x"]):
+        for arguments in ([], ["fly"], ["run"], ["bench"], ["render"], ["view"], ["render", "x.toml"], ["bench", "gas"], ["diff", "a"], ["info", "x"]):
             self.assertIn("--help", self.refused(*arguments), arguments)
         for arguments in ([], ["fly"]):
-            self.assertIn("a command is required: run, bench, validate, info or diff", self.refused(*arguments))
+            self.assertIn("a command is required: run, bench, validate, view, render, info or diff", self.refused(*arguments))
 
     def test_unknown_options(self):
         self.assertIn("--bodies", self.refused_run("--bodies", 3))

@@ -135,17 +135,51 @@ inline scene::Scene growing() {
     return scene;
 }
 
-inline constexpr std::array<std::string_view, 7> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
-                                                                   "piston",   "shaker",       "growing"};
+/// A ground of triangles that goes up and down, and a funnel over it: bodies bounce off them, and lie on them.
+inline scene::Scene obstacles() {
+    constexpr std::uint32_t cells = 6;
+    constexpr std::size_t count = 48;
+    scene::Scene scene;
+    scene.options.gravity = {0, 0, -9.8125};
+    scene.options.region = Box{.min = {-3, -3, -1}, .max = {3, 3, 8}};
+    Mesh ground;
+    for (std::uint32_t k = 0; k < (cells + 1) * (cells + 1); ++k) {
+        const std::uint32_t i = k % (cells + 1);
+        const std::uint32_t j = k / (cells + 1);
+        ground.vertices.push_back({i - 3.0, j - 3.0, 0.25 * (i * 3 % 4) + 0.125 * (j * 5 % 3) - 0.5});
+        if (i == cells || j == cells) continue;
+        ground.triangles.push_back({k, k + 1, k + cells + 2});
+        ground.triangles.push_back({k, k + cells + 2, k + cells + 1});
+    }
+    scene.options.obstacles = {
+        ground,
+        Frustum{.base = {0.125, 0, 1.5}, .axis = {0.125, 0, 1}, .height = 1.5, .base_radius = 0.5, .top_radius = 2}};
+    scene.bodies = scene::BodyTable::of(count);
+    scene.bodies.restitution.assign(count, 0.5);
+    scene.bodies.friction.assign(count, 0.25);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto along = [k](std::size_t stride) { return static_cast<double>(k / stride % 4); };
+        scene.bodies.position[k] = {along(1) - 1.5, along(4) - 1.5, 3.5 + along(16)};
+        scene.bodies.velocity[k] = {along(4) - 1.25, 1.5 - along(1), -along(2)};
+        scene.bodies.radius[k] = 0.125 + 0.0625 * static_cast<double>(k % 3);
+    }
+    scene.bodies.velocity[20] = {0, 0, -400};
+    scene.bodies.restitution[5] = 1;
+    return scene;
+}
+
+inline constexpr std::array<std::string_view, 8> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
+                                                                   "piston",   "shaker",       "growing", "obstacles"};
 
 inline scene::Scene small_scene(std::string_view name, Precision precision) {
     scene::Scene scene = name == "one_cell"       ? one_cell()
                          : name == "three_bodies" ? three_bodies()
                          : name == "corners"      ? corners()
+                         : name == "heap"         ? heap()
                          : name == "piston"       ? piston()
                          : name == "shaker"       ? shaker()
                          : name == "growing"      ? growing()
-                                                  : heap();
+                                                  : obstacles();
     scene.name = name;
     scene.options.precision = precision;
     return scene;

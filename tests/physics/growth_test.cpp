@@ -131,6 +131,20 @@ TEST(Growth, IsRefusedWhereItLeadsNowhere) {
     EXPECT_THROW(world.add({.position = {4, 4, 6}, .growth = std::nan("")}), carom::Error);
 }
 
+TEST(Growth, IsRefusedAmongObstacles) {
+    World world({.obstacles = {carom::Frustum{}}});
+    const BodyId id = world.add({.position = {4, 4, 4}});
+    try {
+        world.add({.position = {8, 8, 8}, .growth = 0.5});
+        ADD_FAILURE();
+    } catch (const carom::Error& error) {
+        EXPECT_EQ(error.field(), "growth");
+    }
+    EXPECT_THROW(world.set({{id}}, {.growth = {{-1.0}}}), carom::Error);
+    EXPECT_EQ(world.size(), 1U);
+    world.set({{id}}, {.growth = {{0.0}}});
+}
+
 TEST(Growth, GoesOnAfterASnapshotAndBodiesComeAndGo) {
     World world({.region = carom::Box{{0, 0, 0}, {8, 8, 8}}});
     for (int k = 0; k < 27; ++k) {

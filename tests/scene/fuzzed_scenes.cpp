@@ -130,6 +130,24 @@ threads = 1
 timeline_every = 1
 checkpoint_every = 1
 least_recorded_impulse = 1
+[camera]
+up = [0, 0, 1]
+field_of_view = 30
+[[camera.path]]
+time = 0
+position = [100, 0, 30]
+target = [25, 25, 25]
+[[camera.path]]
+time = 10
+position = [0, 100, 30]
+target = [25, 25, 25]
+field_of_view = 50
+[picture]
+colour_by = "speed"
+time_scale = 2
+moment = 0.01
+trails = 3
+forces = true
 [region]
 kind = "box"
 min = [0, 0, 0]

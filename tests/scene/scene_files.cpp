@@ -93,6 +93,46 @@ check_overlap = false
     EXPECT_FALSE(parsed("").options.record_impacts);
 }
 
+TEST(SceneFile, ReadsCameraAndPicture) {
+    const ViewSettings view = parsed(R"(
+[camera]
+target = [1, 2, 3]
+up = [0, 3, 0]
+field_of_view = 30
+[[camera.path]]
+time = 0
+position = [9, 0, 0]
+target = [0, 0, 0]
+[[camera.path]]
+time = 2.5
+position = [0, 9, 0]
+target = [0, 0, 1]
+field_of_view = 60
+[picture]
+colour_by = "impact_rate"
+time_scale = 0.5
+moment = 1.5
+trails = 2
+forces = true
+)")
+                                  .view;
+    EXPECT_FALSE(view.camera.position);
+    EXPECT_EQ(view.camera.target, (Vec3{1, 2, 3}));
+    EXPECT_EQ(view.camera.up, (Vec3{0, 1, 0}));
+    ASSERT_EQ(view.camera.path.size(), 2U);
+    EXPECT_EQ(view.camera.path[0].field_of_view, 30);
+    EXPECT_EQ(view.camera.path[1].time, 2.5);
+    EXPECT_EQ(view.camera.path[1].position, (Vec3{0, 9, 0}));
+    EXPECT_EQ(view.camera.path[1].target, (Vec3{0, 0, 1}));
+    EXPECT_EQ(view.camera.path[1].field_of_view, 60);
+    EXPECT_EQ(view.picture.colour_by, ColourBy::impact_rate);
+    EXPECT_EQ(view.picture.time_scale, 0.5);
+    EXPECT_EQ(view.picture.moment, 1.5);
+    EXPECT_EQ(view.picture.trails, 2);
+    EXPECT_TRUE(view.picture.forces);
+    EXPECT_FALSE(parsed("").view.picture.moment);
+}
+
 TEST(SceneFile, TheCommandLineGoesFirst) {
     constexpr const char* text = "[run]\nsteps = 30\ndt = 0.5\nprecision = \"single\"\nthreads = 3";
     Overrides overrides;

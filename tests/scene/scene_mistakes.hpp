@@ -31,7 +31,7 @@ gravity = [0, 0, -9.81
     {R"(titel = "x"
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
-     "attractor, bodies, material, material_rule, output, region, run, seed, title, world"},
+     "attractor, bodies, camera, material, material_rule, obstacle, output, picture, region, run, seed, title, world"},
     {R"(
 [wrold]
 )",
@@ -273,6 +273,67 @@ kind = "shell"
 radius = 0
 )",
      "s.toml:3: region.radius: must be > 0", ""},
+    {R"([[obstacle]]
+radius = 1
+)",
+     "s.toml:1: obstacle[0].kind: is missing", ""},
+    {R"([[obstacle]]
+kind = "ball"
+)",
+     "s.toml:2: obstacle[0].kind: must be one of cylinder, cone, frustum, disc, mesh, got 'ball'", ""},
+    {R"([[obstacle]]
+kind = "cylinder"
+height = 1
+)",
+     "s.toml:1: obstacle[0].radius: is missing", ""},
+    {R"([[obstacle]]
+kind = "cone"
+height = 1
+radius = -1
+)",
+     "s.toml:4: obstacle[0].radius: must be > 0", ""},
+    {R"([[obstacle]]
+kind = "cylinder"
+height = 1
+radius = 1
+axis = [0, 0, 0]
+)",
+     "s.toml:5: obstacle[0].axis: must have a direction", ""},
+    {R"([[obstacle]]
+kind = "frustum"
+height = 0
+base_radius = 1
+top_radius = 1
+)",
+     "s.toml:5: obstacle[0].top_radius: must differ from base_radius where the height is 0", ""},
+    {R"([[obstacle]]
+kind = "frustum"
+height = 1
+base_radius = 0
+top_radius = 0
+)",
+     "s.toml:5: obstacle[0].top_radius: must be > 0 where base_radius is 0", ""},
+    {R"([[obstacle]]
+kind = "disc"
+radius = 1
+hole_radius = 1
+)",
+     "s.toml:3: obstacle[0].radius: must be greater than hole_radius", ""},
+    {R"([[obstacle]]
+kind = "disc"
+radius = 1
+height = 1
+)",
+     "s.toml:4: obstacle[0].height: unknown key", "axis, base, friction, hole_radius, kind, radius, restitution"},
+    {R"([[obstacle]]
+kind = "mesh"
+)",
+     "s.toml:1: obstacle[0].file: is missing", ""},
+    {R"([[obstacle]]
+kind = "mesh"
+file = "no_such.obj"
+)",
+     "no_such.obj: ", ""},
     {R"([region]
 kind = "open"
 max = [0, 0, 0]
@@ -692,6 +753,46 @@ around = "sun"
 velocity = { distribution = "orbit" }
 )",
      "s.toml:3: bodies[0].around: must be the name of an [[attractor]], but the scene has none", ""},
+    {R"([camera]
+position = [1, 2, 3]
+target = [1, 2, 3]
+)",
+     "s.toml:3: camera.target: must differ from position", ""},
+    {R"([camera]
+field_of_view = 180
+)",
+     "s.toml:2: camera.field_of_view: must be in [1, 170] degrees, got 180", ""},
+    {R"([camera]
+up = [0, 0, 0]
+)",
+     "s.toml:2: camera.up: must have a direction", ""},
+    {R"([[camera.path]]
+time = 0
+target = [0, 0, 0]
+)",
+     "s.toml:1: camera.path[0].position: is missing", ""},
+    {R"([[camera.path]]
+time = 1
+position = [1, 0, 0]
+target = [0, 0, 0]
+[[camera.path]]
+time = 1
+position = [2, 0, 0]
+target = [0, 0, 0]
+)",
+     "s.toml:6: camera.path[1].time: must be later than that of the key before, 1 s, got 1", ""},
+    {R"([picture]
+colour_by = "sped"
+)",
+     "s.toml:2: picture.colour_by: must be one of material, speed, mass, impact_rate, temperature, got 'sped'", "did you mean 'speed'?"},
+    {R"([picture]
+time_scale = 0
+)",
+     "s.toml:2: picture.time_scale: must be in [1e-12, 1e12], got 0", ""},
+    {R"([picture]
+trail = 3
+)",
+     "s.toml:2: picture.trail: unknown key; did you mean 'trails'?", "colour_by, forces, moment, time_scale, trails"},
 };
 // clang-format on
 

@@ -601,6 +601,19 @@ TEST_P(Reports, AnotherOriginShiftsImpactsAndPositionsBetweenSteps) {
     EXPECT_EQ(between_there, between_here - shift);
 }
 
+TEST(Report, TheStartOfAStepIsInItHoweverItsTimeIsRounded) {
+    World world({.interpolation = true});
+    const BodyId id = world.add({.velocity = {1, 0, 0}});
+    Vec3 before = world.get(id).position;
+    for (int step = 0; step < 200; ++step) {
+        world.step(0.05);
+        Vec3 start;
+        world.positions_at(world.time() - world.report().advanced, {&id, 1}, {&start, 1});
+        EXPECT_NEAR(start.x, before.x, 1e-11);
+        before = world.get(id).position;
+    }
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // The books
 // ---------------------------------------------------------------------------------------------------------------------

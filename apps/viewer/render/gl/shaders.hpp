@@ -1,0 +1,24 @@
+/// \file
+/// The programs of the graphics card, in GLSL 4.50.
+#pragma once
+
+#include <string_view>
+
+namespace carom::viewer::gl::shaders {
+
+/// Stands before each of the others: version and what a frame is drawn with.
+extern const std::string_view frame;
+extern const std::string_view sphere_vertex;   ///< with SHADOW defined: for the map of shadows
+extern const std::string_view sphere_fragment; ///< likewise
+extern const std::string_view panel_vertex;
+extern const std::string_view panel_fragment;
+extern const std::string_view screen_vertex; ///< one triangle over the whole picture
+extern const std::string_view hollow_fragment;
+extern const std::string_view occlusion_fragment;
+extern const std::string_view blur_fragment;
+extern const std::string_view light_fragment;
+extern const std::string_view line_vertex;
+extern const std::string_view line_fragment;
+extern const std::string_view resolve_fragment;
+
+} // namespace carom::viewer::gl::shaders

@@ -1,0 +1,29 @@
+/// \file
+/// Where the bodies of a scene are, as far as a picture goes by it.
+#pragma once
+
+#include <carom/base.hpp>
+#include <carom/region.hpp>
+
+#include <span>
+
+namespace carom::viewer {
+
+struct Ball {
+    Vec3 centre{};     ///< m
+    double radius = 1; ///< m, > 0
+};
+
+/// A ball around the bodies. A few that are far from all others do not count.
+Ball ball_around(std::span<const Vec3> positions, std::span<const float> radii);
+
+/// What a camera should see: the region where it is closed, else the bodies.
+Ball ball_to_see(const Region& region, const Ball& bodies);
+
+/// m: the sides along which the region repeats, 0 along the others.
+Vec3 periods_of(const Region& region);
+
+/// `way` by the shortest way across periodic faces.
+Vec3 shortest(const Vec3& way, const Vec3& periods);
+
+} // namespace carom::viewer

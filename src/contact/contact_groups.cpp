@@ -1,0 +1,365 @@
+#include "contact/contact_groups.hpp"
+
+#include <carom/executor.hpp>
+
+// Vectors of a size that the compiler does not know cannot be kept in a struct.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "contact/contact_groups.cpp" // this file again, once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <string_view>
+
+// No multiply-add here, and no Min or Max: the sign of their zeros depends on the machine.
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::core::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+using Number = hn::TFromD<D>;
+
+template <class D>
+struct Vectors {
+    hn::Vec<D> x, y, z;
+};
+
+template <class D>
+HWY_INLINE HWY_ATTR Vectors<D> operator+(const Vectors<D>& a, const Vectors<D>& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+template <class D>
+HWY_INLINE HWY_ATTR Vectors<D> operator-(const Vectors<D>& a, const Vectors<D>& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+template <class D, class V>
+HWY_INLINE HWY_ATTR Vectors<D> scaled(const Vectors<D>& a, V s) {
+    return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+template <class D>
+HWY_INLINE HWY_ATTR auto dot(const Vectors<D>& a, const Vectors<D>& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+template <class D, class M>
+HWY_INLINE HWY_ATTR Vectors<D> chosen(M mask, const Vectors<D>& yes, const Vectors<D>& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+/// The lanes from `lane` on.
+template <class D>
+HWY_INLINE HWY_ATTR auto load(D lanes, const std::array<Number<D>, group_size>& values, std::size_t lane) {
+    return hn::LoadU(lanes, values.data() + lane);
+}
+template <class D>
+HWY_INLINE HWY_ATTR Vectors<D> load(D lanes, const std::array<std::array<Number<D>, group_size>, 3>& values,
+                                    std::size_t lane) {
+    return {load(lanes, values[0], lane), load(lanes, values[1], lane), load(lanes, values[2], lane)};
+}
+template <class D>
+HWY_INLINE HWY_ATTR void store(D lanes, hn::Vec<D> v, std::array<Number<D>, group_size>& values, std::size_t lane) {
+    hn::StoreU(v, lanes, values.data() + lane);
+}
+template <class D>
+HWY_INLINE HWY_ATTR void store(D lanes, const Vectors<D>& v, std::array<std::array<Number<D>, group_size>, 3>& values,
+                               std::size_t lane) {
+    store(lanes, v.x, values[0], lane);
+    store(lanes, v.y, values[1], lane);
+    store(lanes, v.z, values[2], lane);
+}
+
+/// Where in an array of four numbers each the elements begin, counted in numbers.
+template <class D>
+HWY_INLINE HWY_ATTR auto offsets(D /*lanes*/, const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
+    const hn::RebindToSigned<D> places;
+    const hn::Rebind<std::int32_t, D> narrow;
+    const auto numbers = hn::LoadU(narrow, reinterpret_cast<const std::int32_t*>(indices.data() + lane));
+    if constexpr (sizeof(Number<D>) == sizeof(std::int32_t)) {
+        return hn::ShiftLeft<2>(numbers);
+    } else {
+        return hn::ShiftLeft<2>(hn::PromoteTo(places, numbers));
+    }
+}
+
+template <class D, class I>
+HWY_INLINE HWY_ATTR Vectors<D> gather(D lanes, const Number<D>* from, I at) {
+    return {hn::GatherIndex(lanes, from, at), hn::GatherIndex(lanes, from + 1, at),
+            hn::GatherIndex(lanes, from + 2, at)};
+}
+
+/// The movers of one side of some contacts.
+template <class D>
+struct Side {
+    Vectors<D> v;
+    hn::Vec<D> inverse_mass;
+};
+
+template <class D>
+HWY_INLINE HWY_ATTR Side<D> load_side(D lanes, const Mover<Number<D>>* movers,
+                                      const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
+    const auto* const numbers = reinterpret_cast<const Number<D>*>(movers);
+    const auto at = offsets(lanes, indices, lane);
+    return {gather(lanes, numbers, at), hn::GatherIndex(lanes, numbers + 3, at)};
+}
+
+template <class D>
+HWY_INLINE HWY_ATTR void store_velocities(D lanes, const Vectors<D>& v, Mover<Number<D>>* movers,
+                                          const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
+    HWY_ALIGN std::array<std::array<Number<D>, group_size>, 3> out;
+    store(lanes, v, out, 0);
+    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
+        movers[indices[lane + k]].v = {out[0][k], out[1][k], out[2][k]};
+    }
+}
+
+/// Gives b an impulse, and a the opposite.
+template <class D>
+HWY_INLINE HWY_ATTR void push(D lanes, const ContactRun<Number<D>>& run, const ContactGroup<Number<D>>& group,
+                              std::size_t lane, const Side<D>& a, const Side<D>& b, const Vectors<D>& impulse) {
+    store_velocities(lanes, a.v - scaled(impulse, a.inverse_mass), run.movers, group.a, lane);
+    store_velocities(lanes, b.v + scaled(impulse, b.inverse_mass), run.movers, group.b, lane);
+}
+
+/// Normals and gaps as the balls are now.
+template <class D>
+struct Sight {
+    Vectors<D> normal;
+    hn::Vec<D> gap;
+};
+
+template <class D>
+HWY_INLINE HWY_ATTR Sight<D> look(D lanes, const ContactRun<Number<D>>& run, const ContactGroup<Number<D>>& group,
+                                  std::size_t lane) {
+    const auto zero = hn::Zero(lanes);
+    const auto* const numbers = reinterpret_cast<const Number<D>*>(run.places);
+    const auto from = gather(lanes, numbers, offsets(lanes, group.a, lane));
+    const auto to = gather(lanes, numbers, offsets(lanes, group.b, lane));
+    const auto apart = load(lanes, group.apart, lane);
+    const auto delta = apart + (to - from);
+    const auto distance = hn::Sqrt(dot(delta, delta));
+    const auto touching = load(lanes, group.touching, lane);
+    const auto is_seen = hn::Ge(touching, zero);
+    const auto has_normal = hn::And(is_seen, hn::Gt(distance, zero));
+    const auto divisor = hn::IfThenElse(has_normal, distance, hn::Set(lanes, Number<D>{1}));
+    const Vectors<D> unit{hn::Div(delta.x, divisor), hn::Div(delta.y, divisor), hn::Div(delta.z, divisor)};
+    return {chosen(has_normal, unit, chosen(is_seen, load(lanes, group.normal, lane), apart)),
+            hn::IfThenElse(is_seen, hn::Sub(distance, touching), load(lanes, group.gap, lane))};
+}
+
+template <class D>
+HWY_INLINE HWY_ATTR auto not_negative(D lanes, hn::Vec<D> v) {
+    return hn::IfThenElseZero(hn::Gt(v, hn::Zero(lanes)), v);
+}
+
+template <class D>
+struct Rub {
+    Vectors<D> impulse;
+    Vectors<D> change;
+};
+
+/// Brakes the sliding of b on a, as far as friction can, and adds the energies that it took to `losses`.
+template <class D>
+HWY_INLINE HWY_ATTR Rub<D> rub(D lanes, const Vectors<D>& before, const Vectors<D>& sliding, hn::Vec<D> mass,
+                               hn::Vec<D> most, double& losses) {
+    const auto one = hn::Set(lanes, Number<D>{1});
+    const auto wanted = before - scaled(sliding, mass);
+    const auto size = hn::Sqrt(dot(wanted, wanted));
+    const auto slips = hn::Gt(size, most);
+    const auto part = hn::IfThenElse(slips, hn::Div(most, hn::IfThenElse(slips, size, one)), one);
+    const auto after = scaled(wanted, part);
+    const auto change = after - before;
+    const auto half_speed = hn::Div(hn::Set(lanes, Number<D>{0.5}), mass);
+    HWY_ALIGN std::array<Number<D>, group_size> taken;
+    hn::StoreU(hn::Neg(dot(change, sliding + scaled(change, half_speed))), lanes, taken.data());
+    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) losses += static_cast<double>(taken[k]);
+    return {after, change};
+}
+
+/// Calls f(group, lane) for the lanes of all groups, as many at once as a vector has.
+template <class D, class F>
+HWY_INLINE HWY_ATTR void for_each_vector(D lanes, const ContactRun<Number<D>>& run, F&& f) {
+    for (ContactGroup<Number<D>>& group : run.groups) {
+        for (std::size_t lane = 0; lane < group_size; lane += hn::Lanes(lanes)) f(group, lane);
+    }
+}
+
+template <class Real>
+HWY_ATTR void measure(const ContactRun<Real>& run) {
+    const hn::CappedTag<Real, group_size> lanes;
+    for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
+        const auto sight = look(lanes, run, group, lane);
+        store(lanes, sight.normal, group.normal, lane);
+        store(lanes, sight.gap, group.gap, lane);
+    });
+}
+
+template <class Real>
+HWY_ATTR void warm_up(const ContactRun<Real>& run) {
+    const hn::CappedTag<Real, group_size> lanes;
+    for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
+        const auto impulse = scaled(load(lanes, group.normal, lane), load(lanes, group.impulse, lane));
+        const auto all = run.rubs ? impulse + load(lanes, group.rub, lane) : impulse;
+        push(lanes, run, group, lane, load_side(lanes, run.movers, group.a, lane),
+             load_side(lanes, run.movers, group.b, lane), all);
+    });
+}
+
+template <class Real>
+HWY_ATTR double solve_softly(const ContactRun<Real>& run, const Softness<Real>& softness) {
+    const hn::CappedTag<Real, group_size> lanes;
+    const auto zero = hn::Zero(lanes);
+    const auto rate = hn::Set(lanes, softness.rate);
+    const auto mass_part = hn::Set(lanes, softness.mass);
+    const auto impulse_part = hn::Set(lanes, softness.impulse);
+    const auto frequency = hn::Set(lanes, softness.frequency);
+    double losses = 0;
+    for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
+        const auto a = load_side(lanes, run.movers, group.a, lane);
+        const auto b = load_side(lanes, run.movers, group.b, lane);
+        const auto normal = load(lanes, group.normal, lane);
+        const auto gap = load(lanes, group.gap, lane);
+        const auto mass = load(lanes, group.mass, lane);
+        const auto before = load(lanes, group.impulse, lane);
+        const auto slip = b.v - a.v;
+        const auto parting = dot(slip, normal);
+        // As fast as they just do not touch at the end of the piece; or what the overlap asks for.
+        const auto is_apart = hn::Gt(gap, zero);
+        const auto wanted = hn::Mul(mass, hn::Add(parting, hn::Mul(hn::IfThenElse(is_apart, frequency, rate), gap)));
+        const auto softened = hn::Add(hn::Mul(wanted, mass_part), hn::Mul(before, impulse_part));
+        const auto after = not_negative(lanes, hn::Sub(before, hn::IfThenElse(is_apart, wanted, softened)));
+        store(lanes, after, group.impulse, lane);
+        auto impulse = scaled(normal, hn::Sub(after, before));
+        if (run.rubs) {
+            const auto most = hn::Mul(load(lanes, group.friction, lane), after);
+            const auto rubbed =
+                rub(lanes, load(lanes, group.rub, lane), slip - scaled(normal, parting), mass, most, losses);
+            store(lanes, rubbed.impulse, group.rub, lane);
+            impulse = impulse + rubbed.change;
+        }
+        push(lanes, run, group, lane, a, b, impulse);
+    });
+    return losses;
+}
+
+/// Notes whom contacts between two bodies carried.
+template <class D, class M>
+HWY_INLINE HWY_ATTR void note_carried(D lanes, const ContactRun<Number<D>>& run, const ContactGroup<Number<D>>& group,
+                                      std::size_t lane, M carries) {
+    std::array<std::uint8_t, group_size> bytes{};
+    hn::StoreMaskBits(lanes, carries, bytes.data());
+    for (std::uint32_t bits = bytes[0], k = 0; bits != 0; bits >>= 1U, ++k) {
+        if ((bits & 1U) != 0) run.carried[group.a[lane + k]] = run.carried[group.b[lane + k]] = 1;
+    }
+}
+
+template <class D>
+HWY_INLINE HWY_ATTR void note_pressings(D lanes, const ContactRun<Number<D>>& run,
+                                        const std::array<std::uint32_t, group_size>& movers, std::size_t lane,
+                                        hn::Vec<D> pressings) {
+    HWY_ALIGN std::array<Number<D>, group_size> out;
+    store(lanes, pressings, out, 0);
+    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
+        Number<D>& pressing = run.pressings[movers[lane + k]];
+        pressing = std::max(pressing, out[k]);
+    }
+}
+
+template <class Real>
+HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces) {
+    const hn::CappedTag<Real, group_size> lanes;
+    const auto zero = hn::Zero(lanes);
+    const auto frequency = hn::Set(lanes, frequency_of_pieces);
+    double losses = 0;
+    for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
+        const auto a = load_side(lanes, run.movers, group.a, lane);
+        const auto b = load_side(lanes, run.movers, group.b, lane);
+        const auto sight = look(lanes, run, group, lane);
+        const auto mass = load(lanes, group.mass, lane);
+        const auto before = load(lanes, group.impulse, lane);
+        const auto slip = b.v - a.v;
+        const auto parting = dot(slip, sight.normal);
+        const auto wanted = hn::Mul(mass, hn::Add(parting, hn::Mul(not_negative(lanes, sight.gap), frequency)));
+        const auto after = not_negative(lanes, hn::Sub(before, wanted));
+        auto impulse = scaled(sight.normal, after) - scaled(load(lanes, group.normal, lane), before);
+        if (run.rubs) {
+            const auto former = load(lanes, group.rub, lane);
+            const auto across = former - scaled(sight.normal, dot(former, sight.normal));
+            const auto turned = chosen(hn::Gt(before, zero), across, scaled(across, zero));
+            const auto most = hn::Mul(load(lanes, group.friction, lane), after);
+            const auto rubbed = rub(lanes, turned, slip - scaled(sight.normal, parting), mass, most, losses);
+            store(lanes, rubbed.impulse, group.rub, lane);
+            impulse = impulse + (rubbed.impulse - former);
+        }
+        store(lanes, sight.normal, group.normal, lane);
+        store(lanes, sight.gap, group.gap, lane);
+        store(lanes, after, group.impulse, lane);
+        push(lanes, run, group, lane, a, b, impulse);
+        const auto carries = hn::And(hn::Gt(hn::Add(before, after), zero), hn::Gt(b.inverse_mass, zero));
+        note_carried(lanes, run, group, lane, carries);
+        const auto force = hn::Mul(after, frequency);
+        note_pressings(lanes, run, group.a, lane, hn::Mul(force, a.inverse_mass));
+        note_pressings(lanes, run, group.b, lane, hn::Mul(force, b.inverse_mass));
+    });
+    return losses;
+}
+
+template <class Real>
+constexpr GroupSolver<Real> solver{&measure<Real>, &warm_up<Real>, &solve_softly<Real>, &solve_hard<Real>};
+
+} // namespace carom::core::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace carom::core {
+
+namespace {
+
+template <class Real>
+struct Target {
+    std::string_view name;
+    GroupSolver<Real> solver;
+};
+
+/// Named as those of simd_search.cpp.
+template <class Real>
+constexpr auto targets = std::to_array<Target<Real>>({
+#    if HWY_TARGETS & HWY_AVX3
+    {"avx512", N_AVX3::solver<Real>},
+#    endif
+#    if HWY_TARGETS & HWY_AVX2
+    {"avx2", N_AVX2::solver<Real>},
+#    endif
+#    if HWY_TARGETS & HWY_SSE4
+    {"sse4", N_SSE4::solver<Real>},
+#    endif
+#    if HWY_TARGETS & HWY_SSSE3
+    {"ssse3", N_SSSE3::solver<Real>},
+#    endif
+#    if HWY_TARGETS & HWY_NEON
+    {"neon", N_NEON::solver<Real>},
+#    endif
+#    if HWY_TARGETS & HWY_EMU128
+    {"scalar", N_EMU128::solver<Real>},
+#    else
+    {"scalar", N_SCALAR::solver<Real>},
+#    endif
+});
+
+} // namespace
+
+template <class Real>
+const GroupSolver<Real>& group_solver() {
+    const auto* const target = std::find_if(targets<Real>.begin(), targets<Real>.end(),
+                                            [name = simd_target()](const Target<Real>& t) { return t.name == name; });
+    return target == targets<Real>.end() ? targets<Real>.back().solver : target->solver;
+}
+
+template const GroupSolver<float>& group_solver();
+template const GroupSolver<double>& group_solver();
+
+} // namespace carom::core
+
+#endif

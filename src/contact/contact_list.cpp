@@ -1,0 +1,330 @@
+#include "contact/contact_list.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace carom::core {
+
+namespace {
+
+/// The lower of two neighbouring cells along an axis, of which a periodic one has `turn`.
+std::uint32_t lower_cell(std::uint32_t a, std::uint32_t b, std::uint32_t turn) {
+    const bool is_around = turn > 2 && std::max(a, b) - std::min(a, b) == turn - 1;
+    return is_around ? std::max(a, b) : std::min(a, b);
+}
+
+} // namespace
+
+template <class Real>
+void ContactList<Real>::clear() {
+    names_.clear();
+    groups_.clear();
+    bundles_.clear();
+    at_walls_.clear();
+    driven_.clear();
+    colour_ends_ = {};
+    movers_ = 0;
+}
+
+template <class Real>
+void ContactList<Real>::find(Executor& executor, double margin, double time) {
+    number_leaners();
+    look_around(executor, margin, time);
+    arrange(margin);
+}
+
+template <class Real>
+void ContactList<Real>::recall(double margin) {
+    number_leaners();
+    clear_for_reuse(found_);
+    const auto leaner = [this](std::uint32_t slot) { return places_[state_.bodies.slots[slot]]; };
+    for (const ContactForce& force : state_.bodies.contacts) {
+        const bool is_wall = (force.code & Support::wall_bit) != 0;
+        found_.push_back({leaner(force.a), is_wall ? nobody : leaner(force.code), force.a, force.code});
+    }
+    arrange(margin);
+}
+
+template <class Real>
+void ContactList<Real>::number_leaners() {
+    const Bodies<Real>& bodies = state_.bodies;
+    places_.assign(bodies.size(), nobody);
+    for (std::uint32_t k = 0; k < bodies.listed.size(); ++k) places_[bodies.slots[bodies.listed[k].slot]] = k;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Finding
+// ---------------------------------------------------------------------------------------------------------------------
+
+template <class Real>
+void ContactList<Real>::look_around(Executor& executor, double margin, double time) {
+    const Bodies<Real>& bodies = state_.bodies;
+    clear_for_reuse(statics_);
+    CensusTaker taker;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        const bool is_leaner = places_[i] != nobody;
+        if (!is_leaner && !is_still(bodies.kind[i]) && !is_prescribed(bodies.kind[i])) continue;
+        if (!is_leaner) statics_.push_back(i);
+        taker.count(bodies.motion[i], bodies.kind[i]);
+    }
+    const Census census = taker.census();
+    ticks_ = Ticks(state_.bounds, state_.resolution, std::max(4 * census.mean_radius, state_.resolution.metres));
+    const auto leaning = static_cast<Index>(bodies.listed.size());
+    const auto body_at = [&](Index k) {
+        return k < leaning ? bodies.slots[bodies.listed[k].slot] : statics_[k - leaning];
+    };
+    neighbours_.build(
+        executor, bodies.listed.size() + statics_.size(), ticks_.axes(census),
+        [&](Index k) {
+            const Motion<Real>& m = bodies.motion[body_at(k)];
+            const Vec3 way = k < leaning ? Vec3{} : velocity_of(m) * (time - m.t);
+            return ticks_.ball(m.x, way, static_cast<double>(m.radius) + margin / 2);
+        },
+        [leaning](Index k) { return k < leaning; });
+    for_each_in_parts(executor, bodies.listed.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+        const auto place = static_cast<Index>(k);
+        neighbours_.for_each(
+            place, [&](Index other) { add_pair(found_in_part_[part], body_at(place), body_at(other), margin, time); });
+        add_walls(found_in_part_[part], place, margin, time);
+    });
+    clear_for_reuse(found_);
+    for (std::vector<Found>& found : found_in_part_) {
+        found_.insert(found_.end(), found.begin(), found.end());
+        clear_for_reuse(found);
+    }
+}
+
+template <class Real>
+void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, double margin, double time) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    const bool is_static = places_[b] == nobody;
+    // Of two leaners both have the other in their lists.
+    if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
+    const Motion<Real>& m_a = bodies.motion[a];
+    const Motion<Real>& m_b = bodies.motion[b];
+    const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
+    const Vec3 way = is_static ? velocity_of(m_b) * (time - m_b.t) : Vec3{};
+    if (length(separation(state_, m_a, m_b, {}, way)) > touching + margin) return;
+    found.push_back({places_[a], is_static ? nobody : places_[b], bodies.slot[a], bodies.slot[b]});
+}
+
+template <class Real>
+void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const {
+    const std::uint32_t slot = state_.bodies.listed[a].slot;
+    const Motion<Real>& m = state_.bodies.motion[state_.bodies.slots[slot]];
+    const auto radius = static_cast<double>(m.radius);
+    const Bounds& bounds = state_.bounds;
+    const auto add = [&](std::uint32_t wall) { found.push_back({a, nobody, slot, Support::wall_bit | wall}); };
+    if (bounds.may_touch_wall(m.x, radius + margin, state_.resolution)) {
+        for (std::uint32_t k = 0; k < bounds.first_facet(); ++k) {
+            if (bounds.gap(bounds.walls()[k], m.x, {}, radius, time, state_.resolution) <= margin) add(k);
+        }
+    }
+    if (bounds.obstacles() == nullptr) return;
+    // Those too to which it slides while the list lasts.
+    constexpr double ahead = 1.0 / 50; // s
+    bounds.obstacles()->for_each_contact(m.x, radius + margin + length(velocity_of(m)) * ahead,
+                                         [&](std::uint32_t facet) { add(bounds.first_facet() + facet); });
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The order
+// ---------------------------------------------------------------------------------------------------------------------
+
+template <class Real>
+void ContactList<Real>::arrange(double margin) {
+    assign_cells(margin);
+    sort();
+    make_groups();
+}
+
+/// Puts every leaner into a cell with edges that no contact is longer than.
+template <class Real>
+void ContactList<Real>::assign_cells(double margin) {
+    const Bodies<Real>& bodies = state_.bodies;
+    CensusTaker taker;
+    double largest = 0;
+    for (const ListedBody& l : bodies.listed) {
+        const auto radius = bodies.motion[bodies.slots[l.slot]].radius;
+        taker.count(Motion<Real>{.x = l.x, .radius = radius}, Kind::piled);
+        largest = std::max(largest, static_cast<double>(radius));
+    }
+    const Census census = taker.census();
+    const auto edge = static_cast<std::uint64_t>((2 * largest + margin) * state_.resolution.per_metre) + 1;
+    const Vec3& g = state_.laws.gravity;
+    const auto pull = [&g](int axis) { return std::abs(component(g, axis)); };
+    const int up = pull(0) > std::max(pull(1), pull(2)) ? 0 : (pull(1) > pull(2) ? 1 : 2);
+    const std::array<CellAxis, 3> axes{cell_axis((up + 1) % 3, census, edge), cell_axis((up + 2) % 3, census, edge),
+                                       cell_axis(up, census, edge)};
+    const bool is_up_positive = component(g, up) <= 0;
+    turns_ = {axes[0].turn, axes[1].turn};
+    cells_.resize(bodies.listed.size());
+    for (std::size_t k = 0; k < bodies.listed.size(); ++k) {
+        const Int3 x = state_.bounds.wrapped(bodies.listed[k].x);
+        const std::uint32_t along = axes[2].cell_of(x);
+        cells_[k] = {{axes[0].cell_of(x), axes[1].cell_of(x)}, is_up_positive ? along : CellAxis::most - along};
+    }
+}
+
+template <class Real>
+auto ContactList<Real>::cell_axis(int axis, const Census& census, std::uint64_t edge) const -> CellAxis {
+    const auto period = static_cast<std::uint64_t>(state_.bounds.period(axis));
+    if (period != 0) {
+        // An even number of cells, or one, so that colours alternate all the way round.
+        const auto turn = std::clamp<std::uint64_t>(period / edge / 2 * 2, 1, CellAxis::most);
+        return {axis, state_.bounds.period_start(axis), period / turn, static_cast<std::uint32_t>(turn)};
+    }
+    const std::uint64_t extent = static_cast<std::uint64_t>(component(census.high, axis)) -
+                                 static_cast<std::uint64_t>(component(census.low, axis));
+    return {axis, component(census.low, axis), std::max(edge, extent / CellAxis::most + 1), 0};
+}
+
+template <class Real>
+auto ContactList<Real>::order_of(std::uint32_t number) const -> Order {
+    const Found& found = found_[number];
+    const Cell& a = cells_[found.a];
+    const Cell& b = found.b == nobody ? a : cells_[found.b];
+    const std::uint64_t first = lower_cell(a.across[0], b.across[0], turns_[0]);
+    const std::uint64_t second = lower_cell(a.across[1], b.across[1], turns_[1]);
+    const std::uint64_t colour = (first & 1U) + 2 * (second & 1U);
+    return {.column = colour << 60U | first << 30U | second,
+            .height = std::min(a.height, b.height),
+            .contact = number,
+            .ids = std::uint64_t{found.slot} << 32U | found.code};
+}
+
+template <class Real>
+void ContactList<Real>::sort() {
+    orders_.resize(found_.size());
+    for (std::uint32_t k = 0; k < orders_.size(); ++k) orders_[k] = order_of(k);
+    std::sort(orders_.begin(), orders_.end());
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Groups
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// Whole columns make up bundles, which are for one thread each, and large enough to fill groups.
+template <class Real>
+void ContactList<Real>::make_groups() {
+    constexpr std::size_t bundled = 1024;
+    clear();
+    movers_ = state_.bodies.listed.size();
+    names_.resize(orders_.size());
+    rubs_ = false;
+    largest_restitution_ = 0;
+    next_group_.assign(state_.bodies.listed.size(), 0);
+    const auto colour_of = [this](std::size_t k) { return orders_[k].column >> 60U; };
+    for (std::size_t begin = 0, k = 0; k < orders_.size(); begin = k) {
+        do {
+            ++k;
+            const bool ends_column = k == orders_.size() || orders_[k].column != orders_[k - 1].column;
+            const bool is_enough = k - begin >= bundled || k == orders_.size() || colour_of(k) != colour_of(begin);
+            if (ends_column && is_enough) break;
+        } while (true);
+        make_bundle(begin, k);
+        colour_ends_[colour_of(begin)] = static_cast<std::uint32_t>(bundles_.size());
+    }
+    for (std::size_t c = 1; c < colours; ++c) colour_ends_[c] = std::max(colour_ends_[c], colour_ends_[c - 1]);
+}
+
+/// A contact joins the first group with room behind all groups of its bodies.
+template <class Real>
+void ContactList<Real>::make_bundle(std::size_t begin, std::size_t end) {
+    const std::size_t first = groups_.size();
+    clear_for_reuse(fillings_);
+    clear_for_reuse(open_from_);
+    for (std::size_t k = begin; k < end; ++k) {
+        const Found& found = found_[orders_[k].contact];
+        std::uint32_t group = next_group_[found.a];
+        if (found.b != nobody) group = std::max(group, next_group_[found.b]);
+        while (group < fillings_.size() && fillings_[group] == group_size) {
+            // Shortcuts over full groups.
+            std::uint32_t& next = open_from_[group];
+            if (next < fillings_.size() && fillings_[next] == group_size) next = open_from_[next];
+            group = next;
+        }
+        if (group >= fillings_.size()) {
+            group = static_cast<std::uint32_t>(fillings_.size());
+            fillings_.push_back(0);
+            open_from_.push_back(group + 1);
+        }
+        next_group_[found.a] = group + 1;
+        if (found.b != nobody) next_group_[found.b] = group + 1;
+        const std::size_t place = (first + group) * group_size + fillings_[group]++;
+        names_[k] = {.slot = found.slot, .code = found.code, .place = static_cast<std::uint32_t>(place)};
+    }
+    const auto idle = static_cast<std::uint32_t>(movers_++);
+    ContactGroup<Real> empty;
+    empty.a.fill(idle);
+    empty.b.fill(idle);
+    empty.mass.fill(1);
+    empty.gap.fill(std::numeric_limits<Real>::infinity());
+    empty.touching.fill(-1);
+    groups_.resize(first + fillings_.size(), empty);
+    for (std::size_t k = begin; k < end; ++k) {
+        const Found& found = found_[orders_[k].contact];
+        fill(static_cast<std::uint32_t>(k), found);
+        next_group_[found.a] = 0;
+        if (found.b != nobody) next_group_[found.b] = 0;
+    }
+    bundles_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(groups_.size())});
+}
+
+/// Whether what a leaner meets has a surface that moves as prescribed.
+template <class Real>
+bool ContactList<Real>::is_driven(const Found& found) const {
+    if (found.b != nobody) return false;
+    const Bodies<Real>& bodies = state_.bodies;
+    if (growth_of(bodies, bodies.slots[found.slot]) != 0) return true;
+    if ((found.code & Support::wall_bit) != 0) return state_.bounds.is_driven(found.code & ~Support::wall_bit);
+    const Index other = bodies.slots[found.code];
+    return bodies.kind[other] == Kind::kinematic || growth_of(bodies, other) != 0;
+}
+
+template <class Real>
+void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
+    const Bodies<Real>& bodies = state_.bodies;
+    ContactName& name = names_[number];
+    ContactGroup<Real>& group = groups_[name.group()];
+    const std::size_t lane = name.lane();
+    const Index body = bodies.slots[found.slot];
+    group.a[lane] = found.a;
+    group.b[lane] = found.b == nobody ? static_cast<std::uint32_t>(movers_++) : found.b;
+    name.is_driven = is_driven(found);
+    if (name.is_driven) driven_.push_back(number);
+    Encounter encounter;
+    double inverse = 1 / static_cast<double>(bodies.mass[body]);
+    if (name.is_wall()) {
+        encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()));
+        at_walls_.push_back(number);
+    } else {
+        const Index other = bodies.slots[found.code];
+        encounter = encounter_of(state_, body, other);
+        inverse += 1 / static_cast<double>(bodies.mass[other]);
+        const Int3 x = found.b == nobody ? bodies.motion[other].x : bodies.listed[found.b].x;
+        const Int3 difference = nearest_image(state_.bounds, state_.resolution, x - bodies.listed[found.a].x, {});
+        const Vec3 apart = to_metres(difference, state_.resolution);
+        for (int axis = 0; axis < 3; ++axis) {
+            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(apart, axis));
+        }
+        open(name, bodies.motion[body].t);
+    }
+    name.restitution = encounter.restitution;
+    group.mass[lane] = static_cast<Real>(1 / inverse);
+    group.friction[lane] = static_cast<Real>(encounter.friction);
+    rubs_ = rubs_ || encounter.friction != 0;
+    largest_restitution_ = std::max(largest_restitution_, encounter.restitution);
+}
+
+template <class Real>
+void ContactList<Real>::open(const ContactName& name, double time) {
+    if (name.is_driven) return;
+    const auto radius = [&](std::uint32_t slot) { return radius_at(state_.bodies, state_.bodies.slots[slot], time); };
+    group_of(name).touching[name.lane()] = static_cast<Real>(radius(name.slot) + radius(name.code));
+}
+
+template class ContactList<float>;
+template class ContactList<double>;
+
+} // namespace carom::core

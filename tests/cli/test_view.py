@@ -1,0 +1,281 @@
+"""carom view in a window of a display that nobody sees (Xvfb): a script uses it like a person and looks at what happens."""
+
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import time
+import unittest
+import zlib
+
+from carom_cli import ROOT, CliTest
+
+WIDTH, HEIGHT = 640, 460
+REFERENCE = ROOT / "tests/data/pictures/window.png"
+
+
+def pixels_of(data):
+    """Width, height and bytes of an 8-bit RGB PNG without interlacing."""
+    place, packed, header = 8, b"", None
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 8:place + 8 + length]
+        header = body if kind == b"IHDR" else header
+        packed += body if kind == b"IDAT" else b""
+        place += length + 12
+    width, height = struct.unpack(">II", header[:8])
+    assert header[8:] == b"\x08\x02\x00\x00\x00", header
+    raw, stride, rows = zlib.decompress(packed), 3 * width, []
+    before = bytearray(stride)
+    for y in range(height):
+        kind = raw[y * (stride + 1)]
+        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            left = line[x - 3] if x >= 3 else 0
+            corner = before[x - 3] if x >= 3 else 0
+            up = before[x]
+            nearest = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
+            line[x] = (line[x] + (0, left, up, (left + up) // 2, nearest)[kind]) & 255
+        rows.append(bytes(line))
+        before = line
+    return width, height, b"".join(rows)
+
+
+class View(CliTest):
+    @classmethod
+    def setUpClass(cls):
+        read, write = os.pipe()
+        cls.display = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            cls.number = pipe.readline().strip()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.display.terminate()
+        cls.display.wait(timeout=60)
+
+    def setUp(self):
+        super().setUp()
+        self.config = self.folder / "config"
+        (self.config / "carom").mkdir(parents=True)
+        self.settings = self.config / "carom/view.json"
+        self.settings.write_text(json.dumps({"width": WIDTH, "height": HEIGHT, "cameras": {}}))
+        self.environment = dict(os.environ, DISPLAY=f":{self.number}", XDG_CONFIG_HOME=str(self.config))
+
+    def script(self, text):
+        """Text of a script, with what must hold at the end of each."""
+        return self.write("script.txt", text + "\nwait 1\nexpect gl_errors = 0\nexpect problem = 0\n")
+
+    def view(self, file, text, **options):
+        return self.carom("view", file, "--script", self.script(text), env=self.environment, **options)
+
+    def test_every_scene_opens(self):
+        names = sorted(path for path in (ROOT / "scenes").glob("*.toml"))
+        text = "".join(f"open {path}\nwait 3\nexpect opened = 1\nexpect bodies > 1\nexpect steps > 0\n" for path in names)
+        self.view(names[0], text)
+
+    def test_a_user_at_work(self):
+        self.view(ROOT / "scenes/tower.toml", """
+            wait 12
+            expect time > 0.09
+            expect plot_rows > 4
+            key space
+            wait 2
+            expect paused = 1
+            key r
+            wait 1
+            expect steps = 0
+            key right
+            key right
+            key right
+            wait 1
+            expect steps = 3
+            key left
+            wait 1
+            expect steps = 2
+            key f1
+            expect help = 1
+            key escape
+            expect help = 0
+            key c
+            wait 1
+            expect colour = 1
+            press gravity 0.5
+            wait 2
+            expect gravity < 2
+            press drag 0.5
+            wait 2
+            expect drag > 2
+            press restitution 0.25
+            wait 2
+            expect restitution > 0.1
+            expect restitution < 0.4
+            expect refused = 0
+            press fly
+            wait 1
+            expect mode = 1
+            press orbit
+            wait 1
+            key t
+            key r
+            wait 2
+            expect steps = 0
+            press Play
+            wait 5
+            expect paused = 0
+            expect steps > 0
+        """)
+
+    def test_pick_shoot_and_choose(self):
+        self.write("one.toml", """
+            [[bodies]]
+            position = [[0, 0, 0], [0, 0, 3]]
+            [camera]
+            position = [0, -12, 0]
+            target = [0, 0, 0]
+            [picture]
+            time_scale = 10
+        """)
+        self.write("two.toml", "[[bodies]]\nposition = [[0, 0, 0], [3, 0, 0], [6, 0, 0]]\n")
+        middle = f"{WIDTH // 2} {HEIGHT // 2}"
+        self.view("one.toml", f"""
+            wait 3
+            click {middle}
+            wait 2
+            expect picked = 1
+            expect picked_slot = 0
+            move {middle}
+            key f                   # a shot at what is picked
+            wait 2
+            expect bodies = 3
+            expect refused = 0
+            expect next_impact > 0
+            wait 25
+            expect impacts > 0
+            press Follow
+            wait 2
+            expect mode = 2
+            key escape
+            expect picked = 0
+            drag {middle} {WIDTH // 2 + 80} {HEIGHT // 2 + 20}
+            wait 2
+            expect camera_x < -1
+            wheel 2
+            wait 2
+            key h
+            wait 2
+            expect camera_y = -12
+            press Scenes
+            wait 20
+            expect browser = 1
+            press two
+            wait 3
+            expect bodies = 3
+            expect steps < 10
+        """)
+
+    def test_looks_as_it_did(self):
+        self.write("calm.toml", """
+            title = "Calm"
+            [region]
+            kind = "box"
+            min = [-3, -3, -1]
+            max = [3, 3, 2]
+            faces = { z_max = "open" }
+            [[bodies]]
+            position = [[-1.5, 0, -0.5], [0, 0, -0.5], [1.5, 0, -0.5], [0, 0, 0.5]]
+            [camera]
+            position = [5, -12, 8]
+            target = [-0.8, 0, -0.3]
+        """)
+        self.settings.write_text(json.dumps({"width": 960, "height": 460, "cameras": {}}))
+        self.view("calm.toml", "key space\nwait 2\nkey r\nwait 2\npicture window.png\nkey p\nwait 2\npicture bare.png\n")
+        self.assertNotEqual(self.read("window.png"), self.read("bare.png"))
+        data = self.read("window.png")
+        if "CAROM_NEW_PICTURES" in os.environ:
+            REFERENCE.write_bytes(data)
+        width, height, pixels = pixels_of(data)
+        self.assertEqual((width, height), (960, 460))
+        _, _, reference = pixels_of(REFERENCE.read_bytes())
+        # The lower part holds times of the wall clock.
+        differences = [abs(a - b) for y in range(300) for a, b in
+                       zip(pixels[3 * y * width:3 * (y + 1) * width], reference[3 * y * width:3 * (y + 1) * width])]
+        self.assertLess(sum(difference > 16 for difference in differences), len(differences) / 100)
+        self.assertLess(sum(differences) / len(differences), 1)
+
+    def test_sizes(self):
+        self.view(ROOT / "scenes/two_bodies.toml", """
+            wait 2
+            size 1 1
+            wait 3
+            expect width = 1
+            size 1100 900
+            wait 3
+            expect width = 1100
+            size 3 700
+            wait 2
+        """)
+
+    def test_a_scene_without_bodies(self):
+        self.write("empty.toml", "")
+        self.view("empty.toml", f"wait 3\nexpect bodies = 0\nclick 400 400\nkey left\nkey right\nkey c\nmove 400 300\n"
+                                "key f\nwait 2\nexpect bodies = 1\n")
+
+    def test_what_is_wrong_is_shown_in_the_window(self):
+        self.write("good.toml", "[[bodies]]\nposition = [0, 0, 0]\n")
+        self.write("bad.toml", "[[bodies]]\nposition = 3\n")
+        self.write("script.txt", "open bad.toml\nwait 2\nexpect problem = 1\nexpect bodies = 1\nopen good.toml\nwait 2\n"
+                                 "expect problem = 0\n")
+        self.carom("view", "good.toml", "--script", "script.txt", env=self.environment)
+
+    def test_window_and_camera_are_remembered(self):
+        self.write("one.toml", "[[bodies]]\nposition = [0, 0, 0]\n")
+        self.view("one.toml", f"wait 2\nsize 700 500\nwait 2\ndrag 400 200 500 250\nwait 2\n")
+        kept = json.loads(self.settings.read_text())
+        self.assertEqual((kept["width"], kept["height"]), (700, 500))
+        (name, camera), = kept["cameras"].items()
+        self.assertEqual(pathlib.Path(name), (self.folder / "one.toml").resolve())
+        x, y, z = camera["position"]
+        self.view("one.toml", f"wait 2\nexpect width = 700\nexpect camera_x = {x!r}\nexpect camera_z = {z!r}\n")
+
+    def test_checkpoints_are_shown(self):
+        self.carom("run", ROOT / "scenes/rain.toml", "--out", "out", "--steps", 60)
+        self.view("out/checkpoint.carom", "wait 3\nexpect bodies = 400\nexpect steps > 60\nkey left\nwait 1\n")
+
+    def test_scripts_find_mistakes(self):
+        self.write("one.toml", "[[bodies]]\nposition = [0, 0, 0]\n")
+        for line, message in (("expect bodies = 2", "script.txt:2: bodies is 1"), ("dance", "no command 'dance'"),
+                              ("key any", "no key 'any'"), ("press Nothing", "no widget 'Nothing'"),
+                              ("wait", "word missing"), ("wait x", "'x' is no number"), ("expect age = 1", "no fact 'age'")):
+            self.write("script.txt", f"wait 1\n{line}\n")
+            _, err = self.carom("view", "one.toml", "--script", "script.txt", env=self.environment, expect=1)
+            self.assertIn(message, err)
+
+    def test_interrupts(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            self.settings.write_text(json.dumps({"width": 300, "height": 200, "cameras": {}}))
+            process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
+            time.sleep(2)
+            self.assertIsNone(process.poll())
+            process.send_signal(number)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, err), (code, ""))
+            self.assertTrue(json.loads(self.settings.read_text())["cameras"])
+
+    def test_without_display_or_graphics(self):
+        scene = ROOT / "scenes/two_bodies.toml"
+        nowhere = {key: value for key, value in self.environment.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.assertIn("there is no display", self.carom("view", scene, env=nowhere, expect=1)[1])
+        old = dict(self.environment, MESA_GL_VERSION_OVERRIDE="3.3")
+        self.assertIn("OpenGL 4.5 core", self.carom("view", scene, env=old, expect=1)[1])
+        self.assertIn("missing.toml", self.carom("view", "missing.toml", env=self.environment, expect=2)[1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,244 @@
+#include "viewer/sound/sound_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
+
+namespace carom::sound {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What is said to a speaker of the test, and what it tells.
+struct Room {
+    std::mutex mutex;
+    std::vector<float> heard; ///< all that any speaker took
+    std::size_t wanted = 0;   ///< samples that are asked for
+    bool plugged = true;      ///< there is a device
+    int opened = 0;           ///< how often it was opened
+};
+
+/// Takes samples as fast as the test asks for them.
+class FakeSpeaker : public Speaker {
+public:
+    explicit FakeSpeaker(Room& room) : room_(room) {}
+    bool has_room() override {
+        const std::scoped_lock lock(room_.mutex);
+        return room_.heard.size() < room_.wanted;
+    }
+    void take(std::span<const float> samples) override {
+        const std::scoped_lock lock(room_.mutex);
+        room_.heard.insert(room_.heard.end(), samples.begin(), samples.end());
+    }
+    bool connected() override {
+        const std::scoped_lock lock(room_.mutex);
+        return room_.plugged;
+    }
+
+private:
+    Room& room_;
+};
+
+OpenSpeaker speaker_in(Room& room) {
+    return [&room](int) -> std::unique_ptr<Speaker> {
+        const std::scoped_lock lock(room.mutex);
+        if (!room.plugged) throw Error(ErrorCode::not_available, "sound", "there is no sound device");
+        ++room.opened;
+        return std::make_unique<FakeSpeaker>(room);
+    };
+}
+
+/// Waits until `condition` holds, for at most ten seconds.
+template <class Condition>
+bool eventually(const Condition& condition) {
+    for (int i = 0; i < 5000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(2ms);
+    }
+    return false;
+}
+
+/// Lets `seconds` of sound pass.
+void pass(Room& room, double seconds) {
+    std::size_t wanted = 0;
+    {
+        const std::scoped_lock lock(room.mutex);
+        room.wanted += 2 * static_cast<std::size_t>(std::lround(seconds * 48000));
+        wanted = room.wanted;
+    }
+    ASSERT_TRUE(eventually([&] {
+        const std::scoped_lock lock(room.mutex);
+        return room.heard.size() >= wanted;
+    }));
+}
+
+void plug(Room& room, bool plugged) {
+    const std::scoped_lock lock(room.mutex);
+    room.plugged = plugged;
+}
+
+/// s: when left rises after silence.
+std::vector<double> onsets(const Room& room) {
+    std::vector<double> times;
+    std::size_t quiet = 4800;
+    for (std::size_t i = 0; i < room.heard.size(); i += 2) {
+        const bool sounds = std::abs(room.heard[i]) > 0.01F;
+        if (sounds && quiet >= 2400) times.push_back(static_cast<double>(i) / 96000);
+        quiet = sounds ? 0 : quiet + 1;
+    }
+    return times;
+}
+
+/// A thud that is over after a few milliseconds.
+const Strike thud{.position = {0, 1, 0}, .restitution = 0};
+
+TEST(LiveSound, FramesFollowOnEachOtherExactly) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    pass(room, 0.1);
+    // Frames of 60 ms, fed a little early or late, each with a thud 20 ms after its start.
+    for (int frame = 0; frame < 10; ++frame) {
+        Strike strike = thud;
+        strike.delay = 0.02;
+        sound.play({&strike, 1}, 0.06);
+        pass(room, frame % 2 == 0 ? 0.05 : 0.07);
+    }
+    pass(room, 0.2);
+    const std::vector<double> times = onsets(room);
+    ASSERT_EQ(times.size(), 10);
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_NEAR(times[i] - times[i - 1], 0.06, 0.0005) << i;
+    EXPECT_EQ(sound.take_problem(), std::nullopt);
+}
+
+TEST(LiveSound, NeitherFallsBehindNorRunsAhead) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    // The simulation stood still for a second: the next frame is heard at once.
+    sound.play({}, 0.01);
+    pass(room, 1);
+    sound.play({&thud, 1}, 0.01);
+    pass(room, 0.2);
+    // It runs away: a second of frames at a time when none has passed; what comes after is still heard soon.
+    for (int i = 0; i < 100; ++i) sound.play({}, 0.01);
+    sound.play({&thud, 1}, 0.01);
+    pass(room, 0.3);
+    const std::vector<double> times = onsets(room);
+    ASSERT_EQ(times.size(), 2);
+    EXPECT_NEAR(times[0], 1.025, 0.005);
+    EXPECT_LE(times[1], 1.2 + 0.025 + 0.1 + 0.015);
+}
+
+TEST(LiveSound, WithoutADeviceIsSilentAndSaysSoOnce) {
+    Room room;
+    room.plugged = false;
+    LiveSound sound({}, speaker_in(room));
+    std::optional<std::string> problem;
+    ASSERT_TRUE(eventually([&] { return (problem = sound.take_problem()).has_value(); }));
+    EXPECT_EQ(*problem, "sound: there is no sound device");
+    EXPECT_EQ(sound.take_problem(), std::nullopt);
+    EXPECT_FALSE(sound.audible());
+    sound.listen({});
+    sound.play({&thud, 1}, 0.01);
+}
+
+TEST(LiveSound, SurvivesADeviceThatVanishesAndComesBack) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    pass(room, 0.05);
+    plug(room, false);
+    std::optional<std::string> problem;
+    ASSERT_TRUE(eventually([&] { return (problem = sound.take_problem()).has_value(); }));
+    EXPECT_EQ(*problem, "sound: the sound device has vanished");
+    EXPECT_FALSE(sound.audible());
+    for (int i = 0; i < 100; ++i) sound.play({&thud, 1}, 0.01);
+    EXPECT_EQ(sound.take_problem(), std::nullopt);
+
+    sound.reopen(); // too early
+    ASSERT_TRUE(eventually([&] { return (problem = sound.take_problem()).has_value(); }));
+    EXPECT_EQ(*problem, "sound: there is no sound device");
+
+    plug(room, true);
+    sound.reopen();
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    EXPECT_EQ(room.opened, 2);
+    sound.play({&thud, 1}, 0.01);
+    pass(room, 0.2);
+    EXPECT_EQ(onsets(room).size(), 1);
+}
+
+TEST(LiveSound, ListensFromWhereItWasPutBeforeTheDeviceCame) {
+    Room room;
+    room.plugged = false;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.take_problem().has_value(); }));
+    sound.listen({.position = {-1, 1, 0}}); // so that what is at {0, 1, 0} is on the right
+    plug(room, true);
+    sound.reopen();
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    sound.play({&thud, 1}, 0.01);
+    pass(room, 0.1);
+    double left = 0;
+    double right = 0;
+    for (std::size_t i = 0; i < room.heard.size(); i += 2) {
+        left += std::abs(static_cast<double>(room.heard[i]));
+        right += std::abs(static_cast<double>(room.heard[i + 1]));
+    }
+    EXPECT_GT(right, 100 * left);
+}
+
+TEST(LiveSound, RefusesWhatASoundStageRefuses) {
+    Room room;
+    EXPECT_THROW(LiveSound({.rate = 1}, speaker_in(room)), Error);
+    LiveSound sound({}, speaker_in(room));
+    EXPECT_THROW(sound.play({}, 0), Error);
+    EXPECT_THROW(sound.listen({.forward = {}}), Error);
+    const Strike bad{.mass = -1};
+    EXPECT_THROW(sound.play({&bad, 1}, 1), Error);
+}
+
+/// Which drivers OpenAL has is settled when it is first used, so each of these is a process of its own.
+class DefaultSpeaker : public testing::Test {
+protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+/// Ends the process with 0 if it goes as it should.
+[[noreturn]] void play_for_a_moment() {
+    ::setenv("ALSOFT_DRIVERS", "null", 1);
+    const std::unique_ptr<Speaker> speaker = open_default_speaker(48000);
+    const std::vector<float> block(960);
+    // A second takes a second, give or take what waits in the queue.
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 100; ++i) {
+        while (!speaker->has_room()) std::this_thread::sleep_for(1ms);
+        speaker->take(block);
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::exit(speaker->connected() && seconds > 0.8 ? 0 : 1);
+}
+
+[[noreturn]] void play_to_nobody() {
+    ::setenv("ALSOFT_DRIVERS", "wave", 1); // writes to a file that nobody has named
+    LiveSound sound({});
+    std::optional<std::string> problem;
+    const bool told = eventually([&] { return (problem = sound.take_problem()).has_value(); });
+    sound.play({&thud, 1}, 0.01);
+    std::exit(told && *problem == "sound: there is no sound device" && !sound.audible() ? 0 : 1);
+}
+
+TEST_F(DefaultSpeaker, TakesSamplesInRealTime) { EXPECT_EXIT(play_for_a_moment(), testing::ExitedWithCode(0), ""); }
+
+TEST_F(DefaultSpeaker, ThatIsMissingLeavesSilence) { EXPECT_EXIT(play_to_nobody(), testing::ExitedWithCode(0), ""); }
+
+} // namespace
+
+} // namespace carom::sound

@@ -1,0 +1,197 @@
+// What is made of a world to be drawn: places between steps, colours, regions, trails, forces, cameras.
+#include "scene/scene.hpp"
+#include "viewer/drawings.hpp"
+#include "viewer/stage/camera_path.hpp"
+#include "viewer/stage/palette.hpp"
+#include "viewer/stage/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace carom::viewer {
+namespace {
+
+World world_of(WorldOptions options, const std::vector<Body>& bodies) {
+    options.interpolation = true;
+    World world(options);
+    for (const Body& body : bodies) world.add(body);
+    return world;
+}
+
+float scale_place(std::uint32_t look) { return static_cast<float>(look & 0xffffU) / 65535; }
+
+TEST(Moment, PlacesBetweenStepsAreThoseOfTheWorld) {
+    Box box{{0, 0, 0}, {10, 10, 10}};
+    for (Face& face : box.faces) face.kind = FaceKind::periodic;
+    World world = world_of({.region = box}, {{.position = {9.5, 5, 5}, .velocity = {2, 1, 0}},
+                                             {.position = {1, 1, 1}, .velocity = {-4, 0, 3}}});
+    world.step(0.5);
+    world.step(0.5);
+    Spectator spectator(scene::ColourBy::material);
+    const auto moment = spectator.look(world, false);
+    for (const double time : {0.5, 0.6, 0.75, 1.0}) {
+        std::vector<Vec3> expected(2);
+        world.positions_at(time, world.ids(), expected);
+        std::vector<PackedBody> packed;
+        pack(*moment, time, {5, 5, 5}, std::nullopt, packed);
+        for (std::size_t i = 0; i < 2; ++i) {
+            // Beside the box where the world has it on the other side.
+            const Vec3 off = shortest(moment->position_at(i, time) - expected[i], {10, 10, 10});
+            EXPECT_LT(length(off), 1e-6);
+            const Vec3f drawn{packed[i].x, packed[i].y, packed[i].z};
+            EXPECT_LT(length(drawn - narrow(moment->position_at(i, time) - Vec3{5, 5, 5})), 1e-5F);
+        }
+    }
+}
+
+TEST(Moment, BodiesThatComeAndGoAreNoticed) {
+    World world = world_of({}, {{}, {.position = {5, 0, 0}, .radius = 0.25}});
+    Spectator spectator(scene::ColourBy::material);
+    world.step(0.1);
+    const auto before = spectator.look(world, false);
+    EXPECT_EQ(before->radii->at(1), 0.25F);
+    const BodyId third = world.add({.position = {0, 9, 0}, .radius = 2});
+    world.step(0.1);
+    const auto after = spectator.look(world, false);
+    ASSERT_EQ(after->position.size(), 3U);
+    EXPECT_EQ(after->radii->at(2), 2.0F);
+    EXPECT_NE(after->version, before->version);
+    EXPECT_NE(Spectator(scene::ColourBy::material).look(world, false)->version, after->version);
+    EXPECT_EQ(after->ids->back(), third);
+}
+
+TEST(Colours, ScaleWithSpeedAndMass) {
+    std::vector<Body> bodies;
+    bodies.reserve(21);
+    for (int i = 0; i < 21; ++i) {
+        bodies.push_back(
+            {.position = {3.0 * i, 0, 0}, .velocity = {0, static_cast<double>(i), 0}, .mass = std::pow(10, i)});
+    }
+    World world = world_of({}, bodies);
+    world.step(0.1);
+    const auto by_speed = Spectator(scene::ColourBy::speed).look(world, false);
+    EXPECT_EQ(by_speed->lowest, 0);
+    EXPECT_EQ(by_speed->highest, 19); // one in twenty is faster
+    for (std::size_t i = 0; i < 21; ++i) {
+        EXPECT_NEAR(scale_place(by_speed->looks[i]), std::min(1.0, static_cast<double>(i) / 19), 1e-4);
+    }
+    const auto by_mass = Spectator(scene::ColourBy::mass).look(world, false);
+    for (std::size_t i = 0; i < 21; ++i) EXPECT_NEAR(scale_place(by_mass->looks[i]), static_cast<double>(i) / 20, 1e-4);
+}
+
+TEST(Colours, TemperatureIsThatOfTheNeighbourhood) {
+    // Two clouds far from each other that fly: one cold, one with speeds of 1 m/s about the common motion.
+    std::vector<Vec3> position;
+    std::vector<Vec3> velocity;
+    for (int i = 0; i < 1000; ++i) {
+        position.push_back(site(i, 10) * 0.1 + Vec3{i < 500 ? 0.0 : 1000.0, 0, 0});
+        velocity.push_back(Vec3{100, 0, 0} + (i < 500 ? Vec3{} : Vec3{0, i % 2 == 0 ? 1.0 : -1.0, 0}));
+    }
+    const std::vector<BodyId> ids(1000);
+    const std::vector<double> mass(1000, 6);
+    const std::vector<std::uint32_t> material(1000);
+    std::vector<float> temperatures(1000);
+    find_temperatures({ids, position, velocity, mass, material}, temperatures);
+    for (std::size_t i = 0; i < 1000; ++i) EXPECT_NEAR(temperatures[i], i < 500 ? 0 : 2, 1e-6); // m v^2 / 3
+}
+
+TEST(Colours, ImpactRatesAreCountedAndForgotten) {
+    // A ball between two walls, one metre of room, 10 m/s: ten impacts a second.
+    World world = world_of({.region = Box{{-1, -1, -1}, {1, 1, 1}}}, {{.velocity = {10, 0, 0}, .radius = 0.5}});
+    Spectator spectator(scene::ColourBy::impact_rate);
+    for (int i = 0; i < 1000; ++i) {
+        world.step(0.01);
+        spectator.watch_step(world);
+    }
+    EXPECT_NEAR(spectator.look(world, false)->highest, 10, 1);
+}
+
+TEST(Colours, ShadesOfAMaterialStayInItsHue) {
+    for (std::uint32_t material = 0; material < 8; ++material) {
+        for (std::uint32_t seed = 0; seed < 100; ++seed) {
+            const float column = place_of_material(material, seed) * 255;
+            EXPECT_GT(column, static_cast<float>(32 * material) + 0.5F);
+            EXPECT_LT(column, static_cast<float>(32 * material) + 30.5F);
+        }
+    }
+}
+
+TEST(Cameras, PathsGoThroughTheirKeysSmoothly) {
+    scene::CameraSpec spec;
+    spec.path = {{1, {10, 0, 0}, {0, 0, 0}, 30}, {2, {0, 10, 0}, {0, 0, 1}, 50}, {4, {-10, 0, 5}, {0, 0, 0}, 40}};
+    const auto at = [&](double time) { return camera_at(spec, time, {}, {0, 0, 1}); };
+    for (const scene::CameraKey& key : spec.path) {
+        EXPECT_LT(length(at(key.time).position - key.position), 1e-12);
+        EXPECT_LT(length(at(key.time).target - key.target), 1e-12);
+        EXPECT_NEAR(at(key.time).field_of_view, key.field_of_view, 1e-12);
+    }
+    EXPECT_EQ(at(0).position, spec.path.front().position);
+    EXPECT_EQ(at(9).position, spec.path.back().position);
+    const double h = 1e-4;
+    const Vec3 before = (at(2).position - at(2 - h).position) / h;
+    const Vec3 after = (at(2 + h).position - at(2).position) / h;
+    EXPECT_LT(length(after - before), 1e-2); // of curvature times h
+}
+
+TEST(Cameras, ShowEverythingWhereTheSceneLeavesItOpen) {
+    const Ball ball{{100, 0, 0}, 10};
+    const Camera camera = camera_at({}, 0, ball, {0, 0, 1});
+    EXPECT_EQ(camera.target, ball.centre);
+    // The ball fills the height of the picture.
+    EXPECT_NEAR(std::asin(ball.radius / length(camera.position - camera.target)) * 360 / 3.14159265,
+                camera.field_of_view, 1e-6);
+    EXPECT_EQ(up_of({}, {0, -9.81, 0}), (Vec3{0, 1, 0}));
+    EXPECT_EQ(up_of({}, {}), (Vec3{0, 0, 1}));
+}
+
+TEST(Stages, ShowRegionsForcesTrailsAndAttractors) {
+    World world =
+        world_of({.gravity = {0, 0, -9.81}, .region = Box{{0, 0, 0}, {10, 10, 10}}},
+                 {{.position = {5, 5, 0.5}, .restitution = 0}, {.position = {8, 5, 5}, .velocity = {-1, 0, 0}}});
+    const Attractor attractor{.position = {5, 5, 5}, .strength = 1e-6};
+    world.set_attractors({&attractor, 1});
+    Spectator spectator(scene::ColourBy::material);
+    Stage stage(world.options().region);
+    stage.set_trails(0.25);
+    const Camera camera{{5, -20, 9}, {5, 5, 5}};
+    std::size_t trail_lines = 0;
+    for (int i = 1; i <= 10; ++i) {
+        world.step(0.1);
+        const auto moment = spectator.look(world, true);
+        const Drawing& drawing = stage.draw(*moment, world.time(), camera);
+        EXPECT_EQ(drawing.panels.size(), 6U);
+        EXPECT_EQ(drawing.lines_on_top.size(), 3U + 1); // the attractor's cross and the weight of the lying ball
+        trail_lines = drawing.lines.size() - 24;        // without the edges of the faces
+    }
+    EXPECT_EQ(trail_lines, 2 * 2U); // two whole steps of 0.1 s in 0.25 s, of two bodies
+    const Line force = stage.settings().lines_on_top.back();
+    EXPECT_NEAR(force.from.z - force.to.z, 0.5, 1e-5);
+    stage.restart();
+    EXPECT_EQ(stage.draw(*spectator.look(world, false), world.time(), camera).lines.size(), 24U);
+}
+
+TEST(Stages, TheOneThatIsPickedGlows) {
+    World world = world_of({}, {{}, {.position = {5, 0, 0}}});
+    world.step(0.1);
+    const auto moment = Spectator(scene::ColourBy::material).look(world, false);
+    std::vector<PackedBody> packed;
+    pack(*moment, 0.1, {}, moment->ids->at(1), packed);
+    EXPECT_EQ(packed[0].look >> 24U, 0U);
+    EXPECT_EQ(packed[1].look >> 24U, 255U);
+}
+
+TEST(Balls, LeaveOutTheFew) {
+    std::vector<Vec3> positions;
+    positions.reserve(1000);
+    for (int i = 0; i < 999; ++i) positions.push_back(site(i, 10));
+    positions.push_back({1e6, 0, 0});
+    const std::vector<float> radii(1000, 0.5F);
+    EXPECT_LT(ball_around(positions, radii).radius, 10);
+    EXPECT_EQ(ball_around({}, {}).radius, 1);
+    EXPECT_EQ(ball_around(std::vector<Vec3>{{1, 2, 3}}, std::vector<float>{0}).radius, 1);
+}
+
+} // namespace
+} // namespace carom::viewer
