@@ -47,6 +47,19 @@ struct alignas(64) ContactGroup {
     Lanes touching{};                          ///< m, at which two balls touch; < 0 where normal and gap are given
 };
 
+/// The vector in a lane.
+template <class Lanes>
+Vector3<typename Lanes::value_type> vector_in(const std::array<Lanes, 3>& vectors, std::size_t lane) {
+    return {vectors[0][lane], vectors[1][lane], vectors[2][lane]};
+}
+/// Puts a vector, rounded, into a lane.
+template <class Lanes>
+void put_into(std::array<Lanes, 3>& vectors, std::size_t lane, const Vec3& v) {
+    vectors[0][lane] = static_cast<typename Lanes::value_type>(v.x);
+    vectors[1][lane] = static_cast<typename Lanes::value_type>(v.y);
+    vectors[2][lane] = static_cast<typename Lanes::value_type>(v.z);
+}
+
 /// How a soft pass turns overlap and approach into impulses.
 template <class Real>
 struct Softness {

@@ -289,9 +289,7 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
         const Int3 x = found.b == nobody ? bodies.motion[other].x : bodies.listed[found.b].x;
         const Int3 difference = nearest_image(state_.bounds, state_.resolution, x - bodies.listed[found.a].x, {});
         const Vec3 apart = to_metres(difference, state_.resolution);
-        for (int axis = 0; axis < 3; ++axis) {
-            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(apart, axis));
-        }
+        put_into(group.apart, lane, apart);
         open(name);
     }
     name.restitution = encounter.restitution;

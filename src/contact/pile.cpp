@@ -27,19 +27,6 @@ constexpr double rate_per_ratio = 2;
 constexpr double most_rate = 1e5;
 constexpr double most_pieces = 1e6;
 
-/// s that contacts are listed for, at least: a body that moves too far meanwhile looks for impacts itself, and meets no
-/// contacts that it does not have.
-constexpr double list_life = 1.0 / 60;
-
-template <class Real>
-Vector3<Real> to_real(const Vec3& v) {
-    return rounded<Real>(v);
-}
-Vec3 to_double(const Vector3<float>& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-Vec3 to_double(const Vec3& v) { return v; }
-
 } // namespace
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -165,394 +152,6 @@ void Pile<Real>::end_step(double reached) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// The list
-// ---------------------------------------------------------------------------------------------------------------------
-
-template <class Real>
-void Pile<Real>::start_list(double from) {
-    Bodies<Real>& bodies = state_.bodies;
-    if (has_values_) keep_forces();
-    settle_accounts();
-    has_values_ = false;
-    clear_for_reuse(closed_);
-    wake_islands();
-    do {
-        settle_accounts();
-        gather();
-        if (bodies.listed.empty()) return;
-        for_each_leaner([&](Findings&, std::size_t k) {
-            advance_leaner(k, from);
-            bodies.listed[k].x = bodies.motion[bodies_[k]].x;
-        });
-        bodies.list_margin = wanted_margin();
-        far_ = 0.5 * bodies.list_margin;
-        list_.find(*executor_, bodies.list_margin);
-    } while (wake_neighbours());
-    is_listed_ = true;
-    bodies.list_age = 0;
-}
-
-/// m. A list ends when a body has moved by half of this: the more, the longer it lasts; but the more of its contacts
-/// bear nothing. Small bodies have no room for much.
-template <class Real>
-double Pile<Real>::wanted_margin() const {
-    constexpr double lives = 2;
-    constexpr double part_of_radius = 0.2;
-    ExactSum radii; // the same in any order
-    for (const Index body : bodies_) radii.add(static_cast<double>(state_.bodies.motion[body].radius));
-    const double mean_radius = radii.value() / static_cast<double>(bodies_.size());
-    return std::min(lives * list_life * unlisted_approach(), part_of_radius * mean_radius) +
-           4 * state_.resolution.metres;
-}
-
-/// m/s, the fastest approach of bodies that is no impact.
-template <class Real>
-double Pile<Real>::unlisted_approach() const {
-    return 2 * told_speed_ + length(state_.laws.gravity) * list_life;
-}
-
-template <class Real>
-void Pile<Real>::gather() {
-    Bodies<Real>& bodies = state_.bodies;
-    still_.assign(bodies.slots.size(), 0);
-    for (const ListedBody& l : bodies.listed) still_[l.slot] = l.still;
-    bodies.listed.clear();
-    clear_for_reuse(bodies_);
-    bodies.loads.assign(bodies.size(), {});
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] != Kind::piled) continue;
-        bodies_.push_back(i);
-        bodies.listed.push_back({.slot = bodies.slot[i], .still = still_[bodies.slot[i]]});
-    }
-    accounts_.assign(bodies_.size(), {});
-    marks_.assign(bodies_.size(), 0);
-    bodies.newly_piled = false;
-}
-
-/// Goes on with the list that the state tells of.
-template <class Real>
-void Pile<Real>::resume_list() {
-    Bodies<Real>& bodies = state_.bodies;
-    if (!is_listed_) {
-        clear_for_reuse(closed_);
-        list_.recall(bodies.list_margin);
-    }
-    is_listed_ = true;
-    bodies_.resize(bodies.listed.size());
-    marks_.assign(list_.movers(), 0);
-    places_.assign(list_.movers(), {});
-    accounts_.assign(bodies_.size(), {});
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        bodies_[k] = bodies.slots[bodies.listed[k].slot];
-        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = gone;
-    }
-    has_far_ = false;
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        if ((marks_[k] & gone) != 0) continue;
-        place(k);
-        has_far_ = has_far_ || is_far(k);
-    }
-}
-
-/// Takes bodies back that were let go, and soon came to lean again; false if any is piled that the list does not do
-/// for.
-template <class Real>
-bool Pile<Real>::take_back(double from) {
-    Bodies<Real>& bodies = state_.bodies;
-    clear_for_reuse(returned_);
-    std::size_t listed = 0;
-    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
-        if (bodies.kind[bodies_[k]] != Kind::piled) continue;
-        ++listed;
-        if ((marks_[k] & gone) == 0) continue;
-        const Motion<Real>& m = bodies.motion[bodies_[k]];
-        const double moved = length(to_metres(m.x - bodies.listed[k].x, state_.resolution));
-        if (moved + length(velocity_of(m)) * (from - m.t) > far_) return false;
-        returned_.push_back(k);
-    }
-    const auto piled = std::count(bodies.kind.begin(), bodies.kind.end(), Kind::piled);
-    if (listed != static_cast<std::size_t>(piled)) return false;
-    bodies.newly_piled = false;
-    if (returned_.empty()) return true;
-    if (has_values_) {
-        keep_forces();
-        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
-    }
-    has_values_ = false;
-    for (const std::uint32_t k : returned_) {
-        marks_[k] = 0;
-        advance_leaner(k, from);
-    }
-    return true;
-}
-
-/// Looks where the bodies are, and takes up the forces.
-template <class Real>
-void Pile<Real>::start_values() {
-    const std::size_t leaners = bodies_.size();
-    least_strike_ = striking_speed(list_.largest_restitution(), 0, state_.laws);
-    entered_.resize(leaners);
-    shares_.resize(leaners);
-    movers_.assign(list_.movers(), {});
-    places_.assign(list_.movers(), {});
-    carried_.assign(list_.movers(), 0);
-    pressings_.assign(list_.movers(), 0);
-    marks_.resize(list_.movers(), 0);
-    losses_.resize(list_.bundles());
-    for_each_leaner([&](Findings& findings, std::size_t k) {
-        movers_[k] = {state_.bodies.motion[bodies_[k]].v, 1 / state_.bodies.mass[bodies_[k]]};
-        entered_[k] = movers_[k].v;
-        place(k);
-        if (mark(k)) findings.has_fast = true;
-        if (is_far(k)) findings.has_far = true;
-    });
-    collect(untold_);
-    measure_walls();
-    recall_forces();
-    close_contacts();
-    list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->measure(run_of(groups)); });
-    for_each_leaner([&](Findings&, std::size_t k) { movers_[k].v = {}; });
-    list_.for_each_bundle(*executor_, [&](std::size_t, auto groups) { solver_->warm_up(run_of(groups)); });
-    for_each_leaner([&](Findings&, std::size_t k) { shares_[k] = movers_[k].v; });
-    note_pressings();
-    has_values_ = true;
-}
-
-/// Gives the contacts the impulses that their forces come to in a piece.
-template <class Real>
-void Pile<Real>::recall_forces() {
-    const std::vector<ContactForce>& forces = state_.bodies.contacts;
-    const std::span<const ContactName> names = list_.names();
-    const auto take = [this](const ContactName& name, const ContactForce& force) {
-        ContactGroup<Real>& group = list_.group_of(name);
-        group.impulse[name.lane()] = static_cast<Real>(force.normal * piece_);
-        for (int axis = 0; axis < 3; ++axis) {
-            group.rub[static_cast<std::size_t>(axis)][name.lane()] =
-                static_cast<Real>(component(force.friction, axis) * piece_);
-        }
-    };
-    const auto is_of = [](const ContactName& name, const ContactForce& force) {
-        return name.slot == force.a && name.code == force.code;
-    };
-    if (std::equal(names.begin(), names.end(), forces.begin(), forces.end(), is_of)) {
-        for (std::size_t k = 0; k < names.size(); ++k) take(names[k], forces[k]);
-        return;
-    }
-    // By body a: where its forces begin, once they are in order.
-    first_forces_.assign(state_.bodies.slots.size() + 1, 0);
-    for (const ContactForce& force : forces) ++first_forces_[force.a + 1];
-    for (std::size_t k = 1; k < first_forces_.size(); ++k) first_forces_[k] += first_forces_[k - 1];
-    force_order_.resize(forces.size());
-    for (std::uint32_t k = 0; k < forces.size(); ++k) force_order_[first_forces_[forces[k].a]++] = k;
-    for (const ContactName& name : names) {
-        // The list of a body ends where it was counted up to.
-        const std::uint32_t begin = name.slot == 0 ? 0 : first_forces_[name.slot - 1];
-        for (std::uint32_t i = begin; i < first_forces_[name.slot]; ++i) {
-            if (is_of(name, forces[force_order_[i]])) take(name, forces[force_order_[i]]);
-        }
-    }
-}
-
-template <class Real>
-void Pile<Real>::keep_forces() {
-    std::vector<ContactForce>& forces = state_.bodies.contacts;
-    const std::span<const ContactName> names = list_.names();
-    forces.resize(names.size());
-    std::array<std::size_t, most_parts> bearing{};
-    for_each_in_parts(*executor_, names.size(), contact_grain, [&](std::size_t part, std::size_t k) {
-        const ContactName& name = names[k];
-        const ContactGroup<Real>& group = list_.group_of(name);
-        const std::size_t lane = name.lane();
-        const auto force = [&](Real impulse) { return static_cast<double>(impulse) / piece_; };
-        const bool is_gone = (marks_[group.a[lane]] & gone) != 0;
-        ContactForce& kept = forces[k] = {.a = name.slot, .code = name.code};
-        if (is_gone || !(group.impulse[lane] > 0)) return;
-        kept.normal = force(group.impulse[lane]);
-        kept.friction = {force(group.rub[0][lane]), force(group.rub[1][lane]), force(group.rub[2][lane])};
-        ++bearing[part];
-    });
-    bearing_ = 0;
-    for (const std::size_t count : bearing) bearing_ += count;
-}
-
-/// Notes how the strongest contact of each body presses it, as each hard pass does.
-template <class Real>
-void Pile<Real>::note_pressings() {
-    const auto frequency = static_cast<Real>(1 / piece_);
-    list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
-        const auto press = [&](std::uint32_t mover, Real impulse) {
-            pressings_[mover] = std::max(pressings_[mover], impulse * movers_[mover].inverse_mass * frequency);
-        };
-        for (const ContactGroup<Real>& group : groups) {
-            for (std::size_t lane = 0; lane < group_size; ++lane) {
-                press(group.a[lane], group.impulse[lane]);
-                press(group.b[lane], group.impulse[lane]);
-            }
-        }
-    });
-}
-
-/// Brings bodies that have just come to lean, and are in no list yet, to the end of the step.
-template <class Real>
-void Pile<Real>::advance_newcomers(double at) {
-    for (Index i = 0; i < state_.bodies.size(); ++i) {
-        if (state_.bodies.kind[i] != Kind::piled || state_.bodies.motion[i].t == at) continue;
-        Entry entry;
-        advance(state_, i, at, entry);
-        accounts_.push_back({.lost = entry.lost_to_restitution, .held_mass_time = entry.held_mass_time});
-    }
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// Sleep
-// ---------------------------------------------------------------------------------------------------------------------
-
-/// Bodies with contacts to each other, listed ones that bear nothing among them, are an island. It falls asleep when
-/// all of it has lain still for long: looked for ten times a second.
-template <class Real>
-void Pile<Real>::fall_asleep(double reached) {
-    constexpr double long_enough = 0.5;
-    constexpr double looks = 10;
-    Bodies<Real>& bodies = state_.bodies;
-    const bool is_due = std::floor(bodies.list_age * looks) != std::floor((bodies.list_age - reached) * looks);
-    if (!is_due || !state_.laws.sleeping || !state_.laws.fields.empty() || bodies.newly_piled) return;
-    const auto sleeps = [](const ListedBody& l) { return l.still >= long_enough; };
-    if (std::none_of(bodies.listed.begin(), bodies.listed.end(), sleeps)) return;
-    islands_.start(bodies_.size());
-    for (const ContactName& name : list_.names()) {
-        const ContactGroup<Real>& group = list_.group_of(name);
-        if (group.b[name.lane()] < bodies_.size()) islands_.unite(group.a[name.lane()], group.b[name.lane()]);
-    }
-    wakeful_.assign(bodies_.size(), false);
-    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
-        if ((marks_[k] & gone) != 0 || !sleeps(bodies.listed[k])) wakeful_[islands_.root(k)] = true;
-    }
-    bool sleeps_any = false;
-    for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
-        if (wakeful_[islands_.root(k)]) continue;
-        sleeps_any = true;
-        enter(k, {});
-        bodies.motion[bodies_[k]].v = {};
-        bodies.kind[bodies_[k]] = Kind::asleep;
-    }
-    if (sleeps_any) leave_sleepers();
-}
-
-/// Takes those who have fallen asleep off the list.
-template <class Real>
-void Pile<Real>::leave_sleepers() {
-    Bodies<Real>& bodies = state_.bodies;
-    settle_accounts();
-    const auto is_asleep = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]] == Kind::asleep; };
-    for (const ContactForce& force : bodies.contacts) {
-        if (is_asleep(force.a) && force.normal > 0) bodies.sleeping.push_back(force);
-    }
-    std::erase_if(bodies.contacts, [&](const ContactForce& force) { return is_asleep(force.a); });
-    std::erase_if(bodies.listed, [&](const ListedBody& l) { return is_asleep(l.slot); });
-    bearing_ = static_cast<std::size_t>(std::count_if(bodies.contacts.begin(), bodies.contacts.end(),
-                                                      [](const ContactForce& force) { return force.normal > 0; }));
-    if (bodies.listed.empty()) bodies.contacts.clear();
-    is_listed_ = has_values_ = false;
-    asleep_mass_.reset();
-}
-
-/// Wakes the islands of those who have been woken, or who are gone.
-template <class Real>
-void Pile<Real>::wake_islands() {
-    Bodies<Real>& bodies = state_.bodies;
-    if (bodies.sleeping.empty()) return;
-    const auto kind_of = [&bodies](std::uint32_t slot) { return bodies.kind[bodies.slots[slot]]; };
-    const auto has_other = [&](const ContactForce& force) {
-        return (force.code & Support::wall_bit) == 0 && kind_of(force.code) != Kind::fixed;
-    };
-    islands_.start(bodies.slots.size());
-    for (const ContactForce& force : bodies.sleeping) {
-        if (has_other(force)) islands_.unite(force.a, force.code);
-    }
-    wakeful_.assign(bodies.slots.size(), false);
-    const auto note = [&](std::uint32_t slot) {
-        if (kind_of(slot) != Kind::asleep) wakeful_[islands_.root(slot)] = true;
-    };
-    for (const ContactForce& force : bodies.sleeping) {
-        note(force.a);
-        if (has_other(force)) note(force.code);
-    }
-    const auto wakes = [&](const ContactForce& force) { return wakeful_[islands_.root(force.a)]; };
-    for (const ContactForce& force : bodies.sleeping) {
-        if (!wakes(force)) continue;
-        wake(bodies, bodies.slots[force.a]);
-        if (has_other(force)) wake(bodies, bodies.slots[force.code]);
-        bodies.contacts.push_back(force);
-    }
-    std::erase_if(bodies.sleeping, wakes);
-    asleep_mass_.reset();
-}
-
-/// Wakes the islands that the list has found near those who are awake; whether there were any.
-template <class Real>
-bool Pile<Real>::wake_neighbours() {
-    Bodies<Real>& bodies = state_.bodies;
-    bool finds_any = false;
-    for (const ContactName& name : list_.names()) {
-        if (!name.is_wall()) finds_any = wake(bodies, bodies.slots[name.code]) || finds_any;
-    }
-    if (finds_any) wake_islands();
-    return finds_any;
-}
-
-/// kg, of those who are asleep: what gravity gives them, what they lie on takes.
-template <class Real>
-double Pile<Real>::asleep_mass() {
-    const Bodies<Real>& bodies = state_.bodies;
-    if (bodies.sleeping.empty()) return 0;
-    if (asleep_mass_ && asleep_ == asleep()) return *asleep_mass_;
-    ExactSum sum; // the same in any order
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (bodies.kind[i] == Kind::asleep) sum.add(static_cast<double>(bodies.mass[i]));
-    }
-    asleep_ = asleep();
-    asleep_mass_ = sum.value();
-    return *asleep_mass_;
-}
-
-template <class Real>
-std::size_t Pile<Real>::asleep() const {
-    const std::vector<Kind>& kinds = state_.bodies.kind;
-    return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), Kind::asleep));
-}
-
-/// Enters into the books what has happened to the bodies since they were gathered: exactly, so that their order in
-/// memory does not matter.
-template <class Real>
-void Pile<Real>::settle_accounts() {
-    struct Sums {
-        ExactVectorSum momentum;
-        ExactSum lost;
-        ExactSum held_mass_time;
-    };
-    if (accounts_.empty()) return;
-    if (has_values_)
-        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
-    std::array<Sums, most_parts> sums{};
-    for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
-        sums[part].momentum.add(accounts_[k].momentum);
-        sums[part].lost.add(accounts_[k].lost);
-        sums[part].held_mass_time.add(accounts_[k].held_mass_time);
-    });
-    for (std::size_t part = 1; part < parts_of(accounts_.size(), leaner_grain); ++part) {
-        sums[0].momentum.add(sums[part].momentum);
-        sums[0].lost.add(sums[part].lost);
-        sums[0].held_mass_time.add(sums[part].held_mass_time);
-    }
-    state_.books.outer_impulse.add(sums[0].momentum.value());
-    state_.books.lost_to_friction.add(friction_loss_);
-    state_.books.lost_to_restitution.add(sums[0].lost.value() - friction_loss_);
-    state_.books.held_mass_time.add(sums[0].held_mass_time.value());
-    friction_loss_ = 0;
-    accounts_.clear();
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
 // Contacts
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -582,9 +181,7 @@ void Pile<Real>::measure_walls() {
         const Motion<Real>& m = state_.bodies.motion[bodies_[group.a[lane]]];
         const Touch touch = state_.bounds.contact(name.wall(), m.x, static_cast<double>(m.radius), state_.resolution);
         group.gap[lane] = static_cast<Real>(touch.gap);
-        for (int axis = 0; axis < 3; ++axis) {
-            group.apart[static_cast<std::size_t>(axis)][lane] = static_cast<Real>(component(touch.normal, axis));
-        }
+        put_into(group.apart, lane, touch.normal);
     });
 }
 
@@ -636,9 +233,7 @@ void Pile<Real>::close(std::uint32_t number, double gap) {
     ContactGroup<Real>& group = list_.group_of(name);
     const std::size_t lane = name.lane();
     const Real size = group.impulse[lane];
-    const Vector impulse{group.normal[0][lane] * size + group.rub[0][lane],
-                         group.normal[1][lane] * size + group.rub[1][lane],
-                         group.normal[2][lane] * size + group.rub[2][lane]};
+    const Vector impulse = vector_in(group.normal, lane) * size + vector_in(group.rub, lane);
     const std::uint32_t a = group.a[lane];
     const std::uint32_t b = group.b[lane];
     shares_[a] += impulse * movers_[a].inverse_mass;
@@ -664,9 +259,8 @@ double Pile<Real>::gap_of(const ContactName& name) const {
     const ContactGroup<Real>& group = list_.group_of(name);
     const std::size_t lane = name.lane();
     if (name.is_wall()) return static_cast<double>(group.gap[lane]);
-    const Vec3 apart{static_cast<double>(group.apart[0][lane]), static_cast<double>(group.apart[1][lane]),
-                     static_cast<double>(group.apart[2][lane])};
-    const Vec3 delta = apart + (to_double(places_[group.b[lane]].x) - to_double(places_[group.a[lane]].x));
+    const Vec3 apart = detail::wide(vector_in(group.apart, lane));
+    const Vec3 delta = apart + (detail::wide(places_[group.b[lane]].x) - detail::wide(places_[group.a[lane]].x));
     return length(delta) - static_cast<double>(group.touching[lane]);
 }
 
@@ -677,10 +271,9 @@ double Pile<Real>::approach_of(const ContactName& name) const {
     const std::size_t lane = name.lane();
     const std::uint32_t a = group.a[lane];
     const std::uint32_t b = group.b[lane];
-    const Vec3 apart{static_cast<double>(group.apart[0][lane]), static_cast<double>(group.apart[1][lane]),
-                     static_cast<double>(group.apart[2][lane])};
-    const Vec3 delta = name.is_wall() ? apart : apart + (to_double(places_[b].x) - to_double(places_[a].x));
-    return dot(to_double(movers_[a].v) - to_double(movers_[b].v), contact_normal(delta, Vec3{}));
+    const Vec3 apart = detail::wide(vector_in(group.apart, lane));
+    const Vec3 delta = name.is_wall() ? apart : apart + (detail::wide(places_[b].x) - detail::wide(places_[a].x));
+    return dot(detail::wide(movers_[a].v) - detail::wide(movers_[b].v), contact_normal(delta, Vec3{}));
 }
 
 template <class Real>
@@ -701,7 +294,7 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const std::uint32_t b = group.b[name.lane()];
     if (((marks_[a] | marks_[b]) & gone) != 0) return false;
     // The normal turns on the way.
-    const double closing = length(to_double(movers_[a].v) - to_double(movers_[b].v));
+    const double closing = length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
     return closing > least_strike_ && way >= gap && closing > strike_of(name);
 }
@@ -714,7 +307,7 @@ bool Pile<Real>::may_sink(const ContactName& name) const {
     if ((marks_[a] & gone) != 0) return false;
     const auto radius = static_cast<double>(state_.bodies.motion[bodies_[a]].radius);
     const double deepest = (1 - deepest_in_surface) * state_.bounds.obstacles()->contact_distance(radius);
-    const double way = 1.001 * length(to_double(movers_[a].v)) * piece_ + 2 * state_.resolution.metres;
+    const double way = 1.001 * length(detail::wide(movers_[a].v)) * piece_ + 2 * state_.resolution.metres;
     return way >= static_cast<double>(group.gap[name.lane()]) + deepest;
 }
 
@@ -722,13 +315,35 @@ bool Pile<Real>::may_sink(const ContactName& name) const {
 // Leaners
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Calls f(findings, k) for all bodies that have not been let go.
+/// Enters into the books what has happened to the bodies since they were gathered: exactly, so that their order in
+/// memory does not matter.
 template <class Real>
-template <class F>
-void Pile<Real>::for_each_leaner(F&& f) {
-    for_each_in_parts(*executor_, bodies_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
-        if ((marks_[k] & gone) == 0) f(findings_[part], k);
+void Pile<Real>::settle_accounts() {
+    struct Sums {
+        ExactVectorSum momentum;
+        ExactSum lost;
+        ExactSum held_mass_time;
+    };
+    if (accounts_.empty()) return;
+    if (has_values_)
+        for_each_leaner([this](Findings&, std::size_t k) { enter(k, state_.bodies.motion[bodies_[k]].v); });
+    std::array<Sums, most_parts> sums{};
+    for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+        sums[part].momentum.add(accounts_[k].momentum);
+        sums[part].lost.add(accounts_[k].lost);
+        sums[part].held_mass_time.add(accounts_[k].held_mass_time);
     });
+    for (std::size_t part = 1; part < parts_of(accounts_.size(), leaner_grain); ++part) {
+        sums[0].momentum.add(sums[part].momentum);
+        sums[0].lost.add(sums[part].lost);
+        sums[0].held_mass_time.add(sums[part].held_mass_time);
+    }
+    state_.books.outer_impulse.add(sums[0].momentum.value());
+    state_.books.lost_to_friction.add(friction_loss_);
+    state_.books.lost_to_restitution.add(sums[0].lost.value() - friction_loss_);
+    state_.books.held_mass_time.add(sums[0].held_mass_time.value());
+    friction_loss_ = 0;
+    accounts_.clear();
 }
 
 /// Puts together what the parts of a loop have found.
@@ -748,19 +363,19 @@ void Pile<Real>::collect(std::vector<Index>& bodies) {
 template <class Real>
 void Pile<Real>::place(std::size_t leaner) {
     const Int3 way = state_.bodies.motion[bodies_[leaner]].x - state_.bodies.listed[leaner].x;
-    places_[leaner].x = to_real<Real>(to_metres(way, state_.resolution));
+    places_[leaner].x = rounded<Real>(to_metres(way, state_.resolution));
 }
 
 /// Whether it has moved too far for the list.
 template <class Real>
 bool Pile<Real>::is_far(std::size_t leaner) const {
-    return length_squared(to_double(places_[leaner].x)) > far_ * far_;
+    return length_squared(detail::wide(places_[leaner].x)) > far_ * far_;
 }
 
 /// Whether a mover's speed could make a strike.
 template <class Real>
 bool Pile<Real>::mark(std::size_t leaner) {
-    const bool is_fast = 4 * length_squared(to_double(movers_[leaner].v)) > least_strike_ * least_strike_;
+    const bool is_fast = 4 * length_squared(detail::wide(movers_[leaner].v)) > least_strike_ * least_strike_;
     marks_[leaner] = is_fast ? fast : 0;
     return is_fast;
 }
@@ -768,7 +383,7 @@ bool Pile<Real>::mark(std::size_t leaner) {
 /// What gravity and the contacts of the piece before give the bodies.
 template <class Real>
 void Pile<Real>::set_out() {
-    fall_ = to_real<Real>(state_.laws.gravity * piece_);
+    fall_ = rounded<Real>(state_.laws.gravity * piece_);
     for_each_leaner(
         [this](Findings&, std::size_t k) { movers_[k].v = state_.bodies.motion[bodies_[k]].v + fall_ + shares_[k]; });
 }
@@ -787,8 +402,8 @@ void Pile<Real>::go() {
         shares_[k] = v - (start + fall_);
         enter(k, v);
         if (mark(k)) findings.has_fast = true;
-        const double speed_squared = length_squared(to_double(v));
-        const double moved_squared = length_squared(to_double(places_[k].x));
+        const double speed_squared = length_squared(detail::wide(v));
+        const double moved_squared = length_squared(detail::wide(places_[k].x));
         const bool is_told = speed_squared <= told_speed_ * told_speed_
                                  ? moved_squared <= room_if_slow * room_if_slow
                                  : std::sqrt(moved_squared) + std::sqrt(speed_squared) * piece_ <= room;
@@ -823,7 +438,7 @@ void Pile<Real>::come_to_rest() {
         state_.bodies.motion[body].v = movers_[k].v;
         shares_[k] += movers_[k].v - entered_[k];
         double& still = state_.bodies.listed[k].still;
-        still = length_squared(to_double(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
+        still = length_squared(detail::wide(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
         if (carried_[k] != 0) return;
         enter(k, movers_[k].v);
         marks_[k] = gone;
@@ -854,8 +469,8 @@ void Pile<Real>::advance_leaner(std::size_t leaner, double at) {
 template <class Real>
 void Pile<Real>::enter(std::size_t leaner, const Vector& v) {
     const auto mass = static_cast<double>(state_.bodies.mass[bodies_[leaner]]);
-    const Vec3 before = to_double(entered_[leaner]);
-    const Vec3 after = to_double(v);
+    const Vec3 before = detail::wide(entered_[leaner]);
+    const Vec3 after = detail::wide(v);
     accounts_[leaner].momentum += (after - before) * mass;
     accounts_[leaner].lost += 0.5 * mass * dot(before - after, before + after);
     entered_[leaner] = v;

@@ -72,6 +72,9 @@ public:
     [[nodiscard]] std::span<const Index> released() const { return released_; }
 
 private:
+    /// s that contacts are listed for, at least: a body that moves too far meanwhile looks for impacts itself, and
+    /// meets no contacts that it does not have.
+    static constexpr double list_life = 1.0 / 60;
     static constexpr std::size_t leaner_grain = 1024;
     static constexpr std::size_t contact_grain = 1024;
 
@@ -160,8 +163,13 @@ private:
     }
 
     // Leaners.
+    /// Calls f(findings, k) for all bodies that have not been let go.
     template <class F>
-    void for_each_leaner(F&& f);
+    void for_each_leaner(F&& f) {
+        for_each_in_parts(*executor_, bodies_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
+            if ((marks_[k] & gone) == 0) f(findings_[part], k);
+        });
+    }
     void collect(std::vector<Index>& bodies);
     void set_out();
     void go();

@@ -2,7 +2,7 @@
 /// How a body's motion is kept: an integer position, a velocity, and the time at which both hold.
 #pragma once
 
-#include <carom/base.hpp>
+#include <carom/time_of_impact.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -93,7 +93,7 @@ struct Motion {
 
 template <class Real>
 Vec3 velocity_of(const Motion<Real>& m) {
-    return {static_cast<double>(m.v.x), static_cast<double>(m.v.y), static_cast<double>(m.v.z)};
+    return detail::wide(m.v);
 }
 
 template <class Real>

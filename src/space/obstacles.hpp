@@ -6,10 +6,10 @@
 /// circle apart.
 #pragma once
 
+#include "collision/surface_time.hpp"
 #include "space/motion.hpp"
 
 #include <carom/region.hpp>
-#include <carom/time_of_impact.hpp>
 
 #include <algorithm>
 #include <array>

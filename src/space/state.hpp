@@ -119,8 +119,7 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
 template <class Real>
 Vec3 pull_on(const State<Real>& state, Index i) {
     if (state.bodies.kind[i] != Kind::piled || i >= state.bodies.loads.size()) return acceleration_of(state, i);
-    const Vector3<Real>& pull = state.bodies.loads[i].pull;
-    return {static_cast<double>(pull.x), static_cast<double>(pull.y), static_cast<double>(pull.z)};
+    return detail::wide(state.bodies.loads[i].pull);
 }
 
 /// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.

@@ -1,5 +1,6 @@
 // Times of impact with triangles and frustums: surfaces without thickness.
 
+#include "collision/surface_time.hpp"
 #include "gap_reference.hpp"
 #include "random_input.hpp"
 
