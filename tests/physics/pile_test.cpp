@@ -164,6 +164,26 @@ TEST(Sleep, IslandsWakeWhenSomethingArrivesAndOthersSleepOn) {
     EXPECT_EQ(world.get(world.ids()[4]).position.x, 17);
 }
 
+// Too slow for an impact, and for coming to lean: two balls on each other slide into two others.
+TEST(Sleep, ACreepingNeighbourWakesAndPushes) {
+    World world(sleepy_world(20));
+    for (const double z : {0.5, 1.5}) world.add({.position = {5, 10, z}, .restitution = 0.3});
+    run(world, 2);
+    ASSERT_EQ(world.report().asleep, 2U);
+    constexpr double speed = 0.02;
+    for (const double z : {0.5, 1.5}) {
+        world.add({.position = {3.96, 10, z}, .velocity = {speed, 0, 0}, .restitution = 0.3});
+    }
+    run(world, 1);
+    EXPECT_EQ(world.report().held, 4U);
+    EXPECT_EQ(world.report().asleep, 2U);
+    run(world, 2);
+    EXPECT_EQ(world.report().asleep, 0U);
+    EXPECT_NEAR(world.momentum().x, 2 * speed, 1e-12);
+    for (const BodyId id : world.ids()) EXPECT_NEAR(world.get(id).velocity.x, speed / 2, 1e-3 * speed);
+    EXPECT_EQ(world.ledger().impacts, 0U);
+}
+
 TEST(Sleep, EndsWithWhatOneLiesOn) {
     const auto sleeper = [] {
         World world = heap(4, 6, 0.5, sleepy_world(4.4));
