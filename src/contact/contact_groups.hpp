@@ -55,9 +55,9 @@ Vector3<typename Lanes::value_type> vector_in(const std::array<Lanes, 3>& vector
 /// Puts a vector, rounded, into a lane.
 template <class Lanes>
 void put_into(std::array<Lanes, 3>& vectors, std::size_t lane, const Vec3& v) {
-    vectors[0][lane] = static_cast<typename Lanes::value_type>(v.x);
-    vectors[1][lane] = static_cast<typename Lanes::value_type>(v.y);
-    vectors[2][lane] = static_cast<typename Lanes::value_type>(v.z);
+    vectors[0][lane] = static_cast<Lanes::value_type>(v.x);
+    vectors[1][lane] = static_cast<Lanes::value_type>(v.y);
+    vectors[2][lane] = static_cast<Lanes::value_type>(v.z);
 }
 
 /// How a soft pass turns overlap and approach into impulses.
