@@ -27,19 +27,22 @@ struct BodyId {
     [[nodiscard]] constexpr bool is_set() const { return slot != 0xffffffffU; }
 };
 
-/// Mass of a static body: it never moves, and takes any momentum.
+/// Mass of a body that takes any momentum, and that nothing which happens makes move otherwise: a static body, or with
+/// a velocity a kinematic one. That goes straight on at this velocity until it is set anew; it passes through faces and
+/// static and kinematic bodies.
 inline constexpr double infinite_mass = std::numeric_limits<double>::infinity();
 
 /// A point mass with a collision radius.
 struct Body {
     Vec3 position{};             ///< m, relative to the world's origin; rounded to the world's resolution
-    Vec3 velocity{};             ///< m/s; zero for a static body
-    double mass = 1;             ///< kg, > 0; infinite_mass makes the body static
+    Vec3 velocity{};             ///< m/s
+    double mass = 1;             ///< kg, > 0; infinite_mass makes the body static, or kinematic if it has a velocity
     double radius = 0.5;         ///< m, >= 0; 0 is a point: two points never meet unless exactly head-on
     double restitution = 1;      ///< e in [0, 1]; two bodies use the larger
     double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
     std::uint32_t material = 0;  ///< key into the world's material rules; has no other effect
     std::uint64_t user_data = 0; ///< yours; kept in snapshots, no part of the hash
+    double growth = 0;           ///< m/s, of the radius; 0 with obstacles; a step to a negative radius is refused
 };
 
 /// Columns of many bodies to read from: the primary way in. Either all bodies' values or, if empty, none: then
@@ -53,6 +56,7 @@ struct ConstBodyColumns {
     std::span<const double> friction{};
     std::span<const std::uint32_t> material{};
     std::span<const std::uint64_t> user_data{};
+    std::span<const double> growth{};
 };
 
 /// Columns of many bodies to write to: the primary way out. Empty columns are not wanted. Units as in Body.
@@ -65,6 +69,7 @@ struct BodyColumns {
     std::span<double> friction{};
     std::span<std::uint32_t> material{};
     std::span<std::uint64_t> user_data{};
+    std::span<double> growth{};
 };
 
 /// What e and mu two bodies of the materials `a` and `b` (in either order) use instead of the combined ones.

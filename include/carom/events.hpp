@@ -59,6 +59,7 @@ struct StepReport {
     double behind = 0;                ///< s it was asked for beyond that: > 0 only if the step ended early
     bool work_cap_reached = false;    ///< the step ended early because of WorldOptions::work_cap
     bool edge_reached = false;        ///< the step ended early: a body was about to leave the representable world
+    bool crushed = false;             ///< the step ended early: what moves as prescribed leaves a body no room
     std::uint64_t impacts = 0;        ///< all of them, recorded or not; body with body
     std::uint64_t face_impacts = 0;   ///< body with a face of the region
     std::uint64_t predictions = 0;    ///< times of impact computed
@@ -83,6 +84,7 @@ struct Ledger {
     double lost_to_restitution = 0; ///< J, in impacts and by coming to rest
     double lost_to_friction = 0;    ///< J
     double lost_to_drag = 0;        ///< J
+    double prescribed_work = 0; ///< J, given to the bodies by faces and bodies that move as prescribed, and by growth
     /// N s given to the bodies by gravity, attractors, drag, faces and static bodies, all together.
     Vec3 outer_impulse{};
 

@@ -18,6 +18,18 @@ struct Surface {
     std::optional<double> friction{};    ///< Coulomb's mu >= 0
 };
 
+/// How a face of a Box, or a Plane, moves from where the region has it: along its normal, towards the bodies, by
+/// `velocity t + amplitude (sin(angular_frequency t + phase) - sin(phase))`.
+struct FaceMotion {
+    double velocity = 0;          ///< m/s, of a piston; positive towards the bodies
+    double amplitude = 0;         ///< m, >= 0, of a shaker
+    double angular_frequency = 0; ///< rad/s, >= 0: 2 pi times the oscillations a second
+    double phase = 0;             ///< rad, when the motion begins
+    Vec3 surface_velocity{};      ///< m/s along the face, of a conveyor belt: the face itself stays where it is
+
+    friend bool operator==(const FaceMotion&, const FaceMotion&) = default;
+};
+
 /// No bounds at all.
 struct OpenSpace {};
 
@@ -32,6 +44,7 @@ enum class FaceKind : std::uint8_t {
 struct Face {
     FaceKind kind = FaceKind::reflecting;
     Surface surface{};
+    FaceMotion motion{}; ///< of a reflecting face
 };
 
 /// Axis-aligned box with the bodies inside. Faces are numbered -x, +x, -y, +y, -z, +z (0 to 5), also in Impact::face.
@@ -47,6 +60,7 @@ struct Plane {
     Vec3 point{};         ///< m, any point of the plane
     Vec3 normal{0, 0, 1}; ///< any length but zero; only the direction counts
     Surface surface{};
+    FaceMotion motion{};
 };
 
 /// The inside of a spherical shell. Impact::face is 0.

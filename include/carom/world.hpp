@@ -158,6 +158,12 @@ public:
     void set_drag(const Drag& drag);
     void set_attractors(std::span<const Attractor> attractors);
     [[nodiscard]] std::span<const Attractor> attractors() const noexcept;
+    /// Moves a reflecting face of a box, or a plane, in another way from now on, and from where it is; the phase is
+    /// that of now. `face` as in Impact::face. A step in which a face of a box may run over the opposite one throws
+    /// Error{out_of_range}, before anything has changed.
+    void set_face_motion(std::int32_t face, const FaceMotion& motion);
+    /// The region as it is now: with the faces where they have moved to.
+    [[nodiscard]] Region region() const;
     /// Makes positions of the API relative to another point (m); nothing moves.
     void set_origin(const std::array<std::int64_t, 3>& origin);
     void set_recording(bool record_impacts, double least_recorded_impulse = 0);

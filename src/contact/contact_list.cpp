@@ -21,14 +21,15 @@ void ContactList<Real>::clear() {
     groups_.clear();
     bundles_.clear();
     at_walls_.clear();
+    driven_.clear();
     colour_ends_ = {};
     movers_ = 0;
 }
 
 template <class Real>
-void ContactList<Real>::find(Executor& executor, double margin) {
+void ContactList<Real>::find(Executor& executor, double margin, double time) {
     number_leaners();
-    look_around(executor, margin);
+    look_around(executor, margin, time);
     arrange(margin);
 }
 
@@ -56,13 +57,13 @@ void ContactList<Real>::number_leaners() {
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
-void ContactList<Real>::look_around(Executor& executor, double margin) {
+void ContactList<Real>::look_around(Executor& executor, double margin, double time) {
     const Bodies<Real>& bodies = state_.bodies;
     clear_for_reuse(statics_);
     CensusTaker taker;
     for (Index i = 0; i < bodies.size(); ++i) {
         const bool is_leaner = places_[i] != nobody;
-        if (!is_leaner && !is_still(bodies.kind[i])) continue;
+        if (!is_leaner && !is_still(bodies.kind[i]) && !is_prescribed(bodies.kind[i])) continue;
         if (!is_leaner) statics_.push_back(i);
         taker.count(bodies.motion[i], bodies.kind[i]);
     }
@@ -76,14 +77,15 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
         executor, bodies.listed.size() + statics_.size(), ticks_.axes(census),
         [&](Index k) {
             const Motion<Real>& m = bodies.motion[body_at(k)];
-            return ticks_.ball(m.x, {}, static_cast<double>(m.radius) + margin / 2);
+            const Vec3 way = k < leaning ? Vec3{} : velocity_of(m) * (time - m.t);
+            return ticks_.ball(m.x, way, static_cast<double>(m.radius) + margin / 2);
         },
         [leaning](Index k) { return k < leaning; });
     for_each_in_parts(executor, bodies.listed.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         const auto place = static_cast<Index>(k);
         neighbours_.for_each(
-            place, [&](Index other) { add_pair(found_in_part_[part], body_at(place), body_at(other), margin); });
-        add_walls(found_in_part_[part], place, margin);
+            place, [&](Index other) { add_pair(found_in_part_[part], body_at(place), body_at(other), margin, time); });
+        add_walls(found_in_part_[part], place, margin, time);
     });
     clear_for_reuse(found_);
     for (std::vector<Found>& found : found_in_part_) {
@@ -93,20 +95,21 @@ void ContactList<Real>::look_around(Executor& executor, double margin) {
 }
 
 template <class Real>
-void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, double margin) const {
+void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, double margin, double time) const {
     const Bodies<Real>& bodies = state_.bodies;
-    const bool is_static = is_still(bodies.kind[b]);
+    const bool is_static = places_[b] == nobody;
     // Of two leaners both have the other in their lists.
     if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
     const Motion<Real>& m_a = bodies.motion[a];
     const Motion<Real>& m_b = bodies.motion[b];
     const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
-    if (length(separation(state_, m_a, m_b, {}, {})) > touching + margin) return;
+    const Vec3 way = is_static ? velocity_of(m_b) * (time - m_b.t) : Vec3{};
+    if (length(separation(state_, m_a, m_b, {}, way)) > touching + margin) return;
     found.push_back({places_[a], is_static ? nobody : places_[b], bodies.slot[a], bodies.slot[b]});
 }
 
 template <class Real>
-void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, double margin) const {
+void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const {
     const std::uint32_t slot = state_.bodies.listed[a].slot;
     const Motion<Real>& m = state_.bodies.motion[state_.bodies.slots[slot]];
     const auto radius = static_cast<double>(m.radius);
@@ -114,7 +117,7 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
     const auto add = [&](std::uint32_t wall) { found.push_back({a, nobody, slot, Support::wall_bit | wall}); };
     if (bounds.may_touch_wall(m.x, radius + margin, state_.resolution)) {
         for (std::uint32_t k = 0; k < bounds.first_facet(); ++k) {
-            if (bounds.gap(bounds.walls()[k], m.x, {}, radius, state_.resolution) <= margin) add(k);
+            if (bounds.gap(bounds.walls()[k], m.x, {}, radius, time, state_.resolution) <= margin) add(k);
         }
     }
     if (bounds.obstacles() == nullptr) return;
@@ -268,6 +271,17 @@ void ContactList<Real>::make_bundle(std::size_t begin, std::size_t end) {
     bundles_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(groups_.size())});
 }
 
+/// Whether what a leaner meets has a surface that moves as prescribed.
+template <class Real>
+bool ContactList<Real>::is_driven(const Found& found) const {
+    if (found.b != nobody) return false;
+    const Bodies<Real>& bodies = state_.bodies;
+    if (growth_of(bodies, bodies.slots[found.slot]) != 0) return true;
+    if ((found.code & Support::wall_bit) != 0) return state_.bounds.is_driven(found.code & ~Support::wall_bit);
+    const Index other = bodies.slots[found.code];
+    return bodies.kind[other] == Kind::kinematic || growth_of(bodies, other) != 0;
+}
+
 template <class Real>
 void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
     const Bodies<Real>& bodies = state_.bodies;
@@ -277,6 +291,8 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
     const Index body = bodies.slots[found.slot];
     group.a[lane] = found.a;
     group.b[lane] = found.b == nobody ? static_cast<std::uint32_t>(movers_++) : found.b;
+    name.is_driven = is_driven(found);
+    if (name.is_driven) driven_.push_back(number);
     Encounter encounter;
     double inverse = 1 / static_cast<double>(bodies.mass[body]);
     if (name.is_wall()) {
@@ -290,7 +306,7 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
         const Int3 difference = nearest_image(state_.bounds, state_.resolution, x - bodies.listed[found.a].x, {});
         const Vec3 apart = to_metres(difference, state_.resolution);
         put_into(group.apart, lane, apart);
-        open(name);
+        open(name, bodies.motion[body].t);
     }
     name.restitution = encounter.restitution;
     group.mass[lane] = static_cast<Real>(1 / inverse);
@@ -300,10 +316,9 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
 }
 
 template <class Real>
-void ContactList<Real>::open(const ContactName& name) {
-    const auto radius = [this](std::uint32_t slot) {
-        return static_cast<double>(state_.bodies.motion[state_.bodies.slots[slot]].radius);
-    };
+void ContactList<Real>::open(const ContactName& name, double time) {
+    if (name.is_driven) return;
+    const auto radius = [&](std::uint32_t slot) { return radius_at(state_.bodies, state_.bodies.slots[slot], time); };
     group_of(name).touching[name.lane()] = static_cast<Real>(radius(name.slot) + radius(name.code));
 }
 

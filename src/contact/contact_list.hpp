@@ -23,6 +23,7 @@ struct ContactName {
     std::uint32_t code = 0;  ///< as in ContactForce
     std::uint32_t place = 0; ///< its lane, counted over all groups
     double restitution = 0;
+    bool is_driven = false; ///< with what moves as prescribed, or of a body that grows with what does not move
 
     [[nodiscard]] bool is_wall() const { return (code & Support::wall_bit) != 0; }
     [[nodiscard]] std::uint32_t wall() const { return code & ~Support::wall_bit; }
@@ -39,8 +40,9 @@ class ContactList {
 public:
     explicit ContactList(State<Real>& state) : state_(state) {}
 
-    /// Lists all that the leaners are nearer to than `margin` (m), bodies that are asleep among it.
-    void find(Executor& executor, double margin);
+    /// Lists all that the leaners, all at `time` (s since the start of the step), are nearer to than `margin` (m),
+    /// bodies that are asleep among it.
+    void find(Executor& executor, double margin, double time);
     /// Lists what Bodies::contacts names.
     void recall(double margin);
 
@@ -48,10 +50,13 @@ public:
     [[nodiscard]] ContactGroup<Real>& group_of(const ContactName& name) { return groups_[name.group()]; }
     [[nodiscard]] const ContactGroup<Real>& group_of(const ContactName& name) const { return groups_[name.group()]; }
     [[nodiscard]] std::span<ContactGroup<Real>> groups() { return groups_; }
-    /// The contact between two bodies is one of balls again.
-    void open(const ContactName& name);
+    /// The contact between two bodies is one of balls again, as large as they are at `time`; but a driven one has its
+    /// normal and gap given.
+    void open(const ContactName& name, double time);
     /// Of the contacts with walls, their numbers in names().
     [[nodiscard]] std::span<const std::uint32_t> at_walls() const { return at_walls_; }
+    /// Of the driven contacts.
+    [[nodiscard]] std::span<const std::uint32_t> driven() const { return driven_; }
     /// Leaners, and behind them an anchor for each contact with what cannot be moved, and one for each bundle.
     [[nodiscard]] std::size_t movers() const { return movers_; }
     [[nodiscard]] bool rubs() const { return rubs_; }
@@ -119,9 +124,9 @@ private:
     };
 
     void number_leaners();
-    void look_around(Executor& executor, double margin);
-    void add_pair(std::vector<Found>& found, Index a, Index b, double margin) const;
-    void add_walls(std::vector<Found>& found, std::uint32_t a, double margin) const;
+    void look_around(Executor& executor, double margin, double time);
+    void add_pair(std::vector<Found>& found, Index a, Index b, double margin, double time) const;
+    void add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const;
     [[nodiscard]] Vec3 apart(std::uint32_t a, Index other) const;
     void arrange(double margin);
     void assign_cells(double margin);
@@ -130,11 +135,13 @@ private:
     void sort();
     void make_groups();
     void make_bundle(std::size_t begin, std::size_t end);
+    [[nodiscard]] bool is_driven(const Found& found) const;
     void fill(std::uint32_t number, const Found& found);
 
     State<Real>& state_;
     std::vector<ContactName> names_; ///< in the order in which they are solved
     std::vector<std::uint32_t> at_walls_;
+    std::vector<std::uint32_t> driven_;
     LineVector<ContactGroup<Real>> groups_;
     std::vector<Bundle> bundles_;
     std::array<std::uint32_t, colours> colour_ends_{}; ///< in bundles_

@@ -101,7 +101,8 @@ void Pile<Real>::begin_piece(double from, double to) {
     Bodies<Real>& bodies = state_.bodies;
     // Until then bodies may come near each other that have no contact in the list, but touch only just.
     const double life = std::min(list_life, bodies.list_margin / unlisted_approach());
-    const bool is_outdated = bodies.listed.empty() || (has_far_ && bodies.list_age >= life);
+    const bool is_outdated = bodies.listed.empty() || ((has_far_ || is_driven()) && bodies.list_age >= life);
+    now_ = from;
     if (is_outdated || (bodies.newly_piled && !take_back(from))) start_list(from);
     piece_ = to - from;
     if (bodies.listed.empty()) return;
@@ -116,16 +117,20 @@ void Pile<Real>::begin_piece(double from, double to) {
                               .frequency = static_cast<Real>(1 / piece_)};
     set_out();
     pass([&](const ContactRun<Real>& run) { return solver_->solve_softly(run, soft); });
+    book_driven(-1);
     go();
 }
 
 template <class Real>
 void Pile<Real>::end_piece(double at) {
     if (state_.bodies.listed.empty() || !has_values_) return;
+    now_ = at;
     arrive(at);
     measure_walls();
     close_contacts();
+    book_driven(1);
     pass([&](const ContactRun<Real>& run) { return solver_->solve_hard(run, static_cast<Real>(1 / piece_)); });
+    book_driven(-1);
     note_carried();
     come_to_rest();
 }
@@ -179,10 +184,75 @@ void Pile<Real>::measure_walls() {
         ContactGroup<Real>& group = list_.group_of(name);
         const std::size_t lane = name.lane();
         const Motion<Real>& m = state_.bodies.motion[bodies_[group.a[lane]]];
-        const Touch touch = state_.bounds.contact(name.wall(), m.x, static_cast<double>(m.radius), state_.resolution);
+        if (name.is_driven) return;
+        const Touch touch =
+            state_.bounds.contact(name.wall(), m.x, static_cast<double>(m.radius), now_, state_.resolution);
         group.gap[lane] = static_cast<Real>(touch.gap);
         put_into(group.apart, lane, touch.normal);
     });
+    measure_driven();
+}
+
+/// Looks where the surfaces that move as prescribed are, and gives their anchors the velocities of the next piece.
+template <class Real>
+void Pile<Real>::measure_driven() {
+    const std::span<const std::uint32_t> driven = list_.driven();
+    for_each_in_parts(*executor_, driven.size(), contact_grain, [&](std::size_t, std::size_t k) {
+        const ContactName& name = list_.names()[driven[k]];
+        ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        const Touch touch = touch_of(name, bodies_[group.a[lane]]);
+        group.gap[lane] = static_cast<Real>(touch.gap);
+        put_into(group.apart, lane, touch.normal);
+        movers_[group.b[lane]].v = surface_velocity(name, touch.normal);
+        marks_[group.b[lane]] = fast;
+    });
+}
+
+/// How a body lies on a surface that moves as prescribed, now.
+template <class Real>
+Touch Pile<Real>::touch_of(const ContactName& name, Index body) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    const Motion<Real>& m = bodies.motion[body];
+    const double radius = radius_at(bodies, body, now_);
+    if (name.is_wall()) return state_.bounds.contact(name.wall(), m.x, radius, now_, state_.resolution);
+    const Index other = bodies.slots[name.code];
+    const Motion<Real>& m_other = bodies.motion[other];
+    const Vec3 delta = separation(state_, m, m_other, {}, velocity_of(m_other) * (now_ - m_other.t));
+    return {length(delta) - (radius + radius_at(bodies, other, now_)), contact_normal(delta, Vec3{})};
+}
+
+/// m/s, over the next piece. A wall's way in it is exact: no swinging wall is taken for another.
+template <class Real>
+auto Pile<Real>::surface_velocity(const ContactName& name, const Vec3& normal) const -> Vector {
+    const Bodies<Real>& bodies = state_.bodies;
+    const Index body = bodies.slots[name.slot];
+    const Vec3 grown = normal * -growth_of(bodies, body);
+    if (!name.is_wall()) {
+        const Index other = bodies.slots[name.code];
+        return detail::narrow<Real>(velocity_of(bodies.motion[other]) + grown - normal * growth_of(bodies, other));
+    }
+    const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
+    if (!wall.is_driven) return detail::narrow<Real>(grown);
+    const Vec3 now = Bounds::velocity(wall, bodies.motion[body].x, {}, now_);
+    const double way = Bounds::offset_at(wall, now_ + piece_) - Bounds::offset_at(wall, now_);
+    return detail::narrow<Real>(now - wall.normal * (way / piece_ + dot(now, wall.normal)) + grown);
+}
+
+/// Enters, `sign` times, the work of the impulses so far on the surfaces that move as prescribed, at their present
+/// velocities; and notes whom those carry.
+template <class Real>
+void Pile<Real>::book_driven(double sign) {
+    for (const std::uint32_t number : list_.driven()) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        if (!(group.impulse[lane] > 0)) continue;
+        const Vector impulse = vector_in(group.normal, lane) * group.impulse[lane] + vector_in(group.rub, lane);
+        const Vec3 surface = detail::wide(movers_[group.b[lane]].v);
+        accounts_[group.a[lane]].prescribed_work += sign * dot(detail::wide(impulse), surface);
+        carried_[group.a[lane]] = 1;
+    }
 }
 
 /// Closes the contacts with facets that bodies have left for others: they carried them so far.
@@ -213,6 +283,11 @@ void Pile<Real>::note_carried() {
 template <class Real>
 void Pile<Real>::close_contacts() {
     reopen_contacts();
+    if (state_.bodies.top_growth != 0) {
+        for (const ContactName& name : list_.names()) {
+            if (!name.is_wall()) list_.open(name, now_);
+        }
+    }
     leave_facets();
     for_each_marked(fast | gone, [this](const ContactName& name) {
         const ContactGroup<Real>& group = list_.group_of(name);
@@ -249,7 +324,7 @@ template <class Real>
 void Pile<Real>::reopen_contacts() {
     for (const Closed& closed : closed_) {
         const ContactName& name = list_.names()[closed.number];
-        if (!name.is_wall()) list_.open(name);
+        if (!name.is_wall()) list_.open(name, now_);
     }
     clear_for_reuse(closed_);
 }
@@ -258,7 +333,7 @@ template <class Real>
 double Pile<Real>::gap_of(const ContactName& name) const {
     const ContactGroup<Real>& group = list_.group_of(name);
     const std::size_t lane = name.lane();
-    if (name.is_wall()) return static_cast<double>(group.gap[lane]);
+    if (name.is_wall() || name.is_driven) return static_cast<double>(group.gap[lane]);
     const Vec3 apart = detail::wide(vector_in(group.apart, lane));
     const Vec3 delta = apart + (detail::wide(places_[group.b[lane]].x) - detail::wide(places_[group.a[lane]].x));
     return length(delta) - static_cast<double>(group.touching[lane]);
@@ -272,7 +347,8 @@ double Pile<Real>::approach_of(const ContactName& name) const {
     const std::uint32_t a = group.a[lane];
     const std::uint32_t b = group.b[lane];
     const Vec3 apart = detail::wide(vector_in(group.apart, lane));
-    const Vec3 delta = name.is_wall() ? apart : apart + (detail::wide(places_[b].x) - detail::wide(places_[a].x));
+    const bool is_given = name.is_wall() || name.is_driven;
+    const Vec3 delta = is_given ? apart : apart + (detail::wide(places_[b].x) - detail::wide(places_[a].x));
     return dot(detail::wide(movers_[a].v) - detail::wide(movers_[b].v), contact_normal(delta, Vec3{}));
 }
 
@@ -293,6 +369,8 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const std::uint32_t a = group.a[name.lane()];
     const std::uint32_t b = group.b[name.lane()];
     if (((marks_[a] | marks_[b]) & gone) != 0) return false;
+    // A surface that moves as prescribed may do so in another way soon.
+    if (name.is_driven) return !std::isinf(gap);
     // The normal turns on the way.
     const double closing = length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
@@ -322,6 +400,7 @@ void Pile<Real>::settle_accounts() {
     struct Sums {
         ExactVectorSum momentum;
         ExactSum lost;
+        ExactSum prescribed_work;
         ExactSum held_mass_time;
     };
     if (accounts_.empty()) return;
@@ -331,16 +410,20 @@ void Pile<Real>::settle_accounts() {
     for_each_in_parts(*executor_, accounts_.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
         sums[part].momentum.add(accounts_[k].momentum);
         sums[part].lost.add(accounts_[k].lost);
+        sums[part].prescribed_work.add(accounts_[k].prescribed_work);
         sums[part].held_mass_time.add(accounts_[k].held_mass_time);
     });
     for (std::size_t part = 1; part < parts_of(accounts_.size(), leaner_grain); ++part) {
         sums[0].momentum.add(sums[part].momentum);
         sums[0].lost.add(sums[part].lost);
+        sums[0].prescribed_work.add(sums[part].prescribed_work);
         sums[0].held_mass_time.add(sums[part].held_mass_time);
     }
     state_.books.outer_impulse.add(sums[0].momentum.value());
     state_.books.lost_to_friction.add(friction_loss_);
-    state_.books.lost_to_restitution.add(sums[0].lost.value() - friction_loss_);
+    const double work = sums[0].prescribed_work.value();
+    state_.books.prescribed_work.add(work);
+    state_.books.lost_to_restitution.add(sums[0].lost.value() + work - friction_loss_);
     state_.books.held_mass_time.add(sums[0].held_mass_time.value());
     friction_loss_ = 0;
     accounts_.clear();
@@ -351,6 +434,7 @@ template <class Real>
 void Pile<Real>::collect(std::vector<Index>& bodies) {
     has_far_ = false;
     all_marks_ &= gone;
+    if (!list_.driven().empty()) all_marks_ |= fast;
     for (Findings& findings : findings_) {
         has_far_ = has_far_ || findings.has_far;
         if (findings.has_fast) all_marks_ |= fast;
@@ -479,6 +563,7 @@ void Pile<Real>::enter(std::size_t leaner, const Vector& v) {
 template <class Real>
 std::size_t Pile<Real>::size() const {
     const Bodies<Real>& bodies = state_.bodies;
+    if (!is_active() && bodies.sleeping.empty()) return 0;
     return static_cast<std::size_t>(std::count_if(bodies.kind.begin(), bodies.kind.end(), leans));
 }
 

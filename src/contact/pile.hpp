@@ -87,9 +87,10 @@ private:
     };
     /// What is not in the books yet.
     struct Account {
-        Vec3 momentum{};           ///< N s
-        double lost = 0;           ///< J
-        double held_mass_time = 0; ///< kg s
+        Vec3 momentum{};            ///< N s
+        double lost = 0;            ///< J
+        double prescribed_work = 0; ///< J
+        double held_mass_time = 0;  ///< kg s
     };
     /// A contact that is left to the impacts, or whose body was let go.
     struct Closed {
@@ -110,6 +111,7 @@ private:
 
     // The list.
     void start_list(double from);
+    [[nodiscard]] bool is_driven() const;
     [[nodiscard]] double wanted_margin() const;
     [[nodiscard]] double unlisted_approach() const;
     void gather();
@@ -134,6 +136,10 @@ private:
     template <class F>
     void pass(F&& solve);
     void measure_walls();
+    void measure_driven();
+    [[nodiscard]] Vector surface_velocity(const ContactName& name, const Vec3& normal) const;
+    [[nodiscard]] Touch touch_of(const ContactName& name, Index body) const;
+    void book_driven(double sign);
     /// Calls f(number) for the contacts with obstacles.
     template <class F>
     void for_each_facet(F&& f) const {
@@ -215,6 +221,7 @@ private:
 
     // The piece.
     double piece_ = 0;         ///< s
+    double now_ = 0;           ///< s since the start of the step, up to which the bodies have come
     Vector fall_{};            ///< m/s, what gravity gives in it
     double friction_loss_ = 0; ///< J, not in the books yet
     double least_strike_ = 0;  ///< m/s: what is slower strikes nothing

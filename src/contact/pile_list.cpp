@@ -23,7 +23,7 @@ void Pile<Real>::start_list(double from) {
         });
         bodies.list_margin = wanted_margin();
         far_ = 0.5 * bodies.list_margin;
-        list_.find(*executor_, bodies.list_margin);
+        list_.find(*executor_, bodies.list_margin, from);
     } while (wake_neighbours());
     is_listed_ = true;
     bodies.list_age = 0;
@@ -45,7 +45,14 @@ double Pile<Real>::wanted_margin() const {
 /// m/s, the fastest approach of bodies that is no impact.
 template <class Real>
 double Pile<Real>::unlisted_approach() const {
-    return 2 * told_speed_ + length(state_.laws.gravity) * list_life;
+    return 2 * told_speed_ + length(state_.laws.gravity) * list_life + 2 * state_.bodies.top_growth;
+}
+
+/// Whether anything moves as prescribed, so that a list does not last.
+template <class Real>
+bool Pile<Real>::is_driven() const {
+    const Bodies<Real>& bodies = state_.bodies;
+    return state_.bounds.any_driven() || !bodies.kinematics.empty() || bodies.top_growth != 0;
 }
 
 template <class Real>
@@ -239,6 +246,7 @@ void Pile<Real>::advance_newcomers(double at) {
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template void Pile<Real>::start_list(double);                                                                      \
     template double Pile<Real>::unlisted_approach() const;                                                             \
+    template bool Pile<Real>::is_driven() const;                                                                       \
     template void Pile<Real>::resume_list();                                                                           \
     template bool Pile<Real>::take_back(double);                                                                       \
     template void Pile<Real>::start_values();                                                                          \

@@ -8,14 +8,16 @@
 namespace carom::core {
 
 /// Bodies with contacts to each other, listed ones that bear nothing among them, are an island. It falls asleep when
-/// all of it has lain still for long: looked for ten times a second.
+/// all of it has lain still for long: looked for ten times a second, or in each step where lists last no longer.
 template <class Real>
 void Pile<Real>::fall_asleep(double reached) {
     constexpr double long_enough = 0.5;
     constexpr double looks = 10;
     Bodies<Real>& bodies = state_.bodies;
-    const bool is_due = std::floor(bodies.list_age * looks) != std::floor((bodies.list_age - reached) * looks);
+    const bool is_due =
+        is_driven() || std::floor(bodies.list_age * looks) != std::floor((bodies.list_age - reached) * looks);
     if (!is_due || !state_.laws.sleeping || !state_.laws.fields.empty() || bodies.newly_piled) return;
+    if (state_.bounds.any_driven() || bodies.top_growth != 0) return;
     const auto sleeps = [](const ListedBody& l) { return l.still >= long_enough; };
     if (std::none_of(bodies.listed.begin(), bodies.listed.end(), sleeps)) return;
     islands_.start(bodies_.size());
@@ -24,6 +26,10 @@ void Pile<Real>::fall_asleep(double reached) {
         if (group.b[name.lane()] < bodies_.size()) islands_.unite(group.a[name.lane()], group.b[name.lane()]);
     }
     wakeful_.assign(bodies_.size(), false);
+    for (const std::uint32_t number : list_.driven()) {
+        const ContactName& name = list_.names()[number];
+        wakeful_[islands_.root(list_.group_of(name).a[name.lane()])] = true;
+    }
     for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
         if ((marks_[k] & gone) != 0 || !sleeps(bodies.listed[k])) wakeful_[islands_.root(k)] = true;
     }
@@ -105,18 +111,20 @@ template <class Real>
 double Pile<Real>::asleep_mass() {
     const Bodies<Real>& bodies = state_.bodies;
     if (bodies.sleeping.empty()) return 0;
-    if (asleep_mass_ && asleep_ == asleep()) return *asleep_mass_;
+    const std::size_t now_asleep = asleep();
+    if (asleep_mass_ && asleep_ == now_asleep) return *asleep_mass_;
     ExactSum sum; // the same in any order
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] == Kind::asleep) sum.add(static_cast<double>(bodies.mass[i]));
     }
-    asleep_ = asleep();
+    asleep_ = now_asleep;
     asleep_mass_ = sum.value();
     return *asleep_mass_;
 }
 
 template <class Real>
 std::size_t Pile<Real>::asleep() const {
+    if (state_.bodies.sleeping.empty()) return 0;
     const std::vector<Kind>& kinds = state_.bodies.kind;
     return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), Kind::asleep));
 }

@@ -43,7 +43,7 @@ double gap_to(const State<Real>& state, Index body, const Support& support) {
     const Motion<Real>& m = state.bodies.motion[body];
     const auto radius = static_cast<double>(m.radius);
     if (support.is_wall()) {
-        return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, state.resolution);
+        return state.bounds.gap(state.bounds.walls()[support.wall()], m.x, {}, radius, m.t, state.resolution);
     }
     const Motion<Real>& other = state.bodies.motion[state.bodies.slots[support.code]];
     return length(separation(state, m, other, {}, {})) - radius - static_cast<double>(other.radius);
@@ -56,11 +56,11 @@ Support derived(const State<Real>& state, Index body, const Support& support) {
     const Vec3 normal = normal_of(state, body, support);
     Support now;
     if (support.is_wall()) {
-        now = support_by_wall(state, support.wall(), normal, m);
+        now = support_by_wall(state, support.wall(), normal, m, 0);
         now.friction = encounter_of(state, body, state.bounds.surface(support.wall())).friction;
     } else {
         const Index fixed = state.bodies.slots[support.code];
-        now = support_by_body(support.code, normal, m, state.bodies.motion[fixed]);
+        now = support_by_body(support.code, normal, m, state.bodies.motion[fixed], 0);
         now.friction = encounter_of(state, body, fixed).friction;
     }
     return now;
@@ -132,12 +132,17 @@ void set_contact_time(Laws& laws, const Resolution& resolution) {
 }
 
 template <class Real>
-Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion) {
+Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion,
+                        double growth) {
     const bool is_shell = state.bounds.shape() == Bounds::Shape::shell;
     const auto radius = static_cast<double>(motion.radius);
+    const Bounds::Wall& face = state.bounds.walls()[wall];
     return {.code = Support::wall_bit | wall,
             .normal = normal,
-            .bend = is_shell ? 1 / (state.bounds.shell_radius() - radius) : 0};
+            .bend = is_shell ? 1 / (state.bounds.shell_radius() - radius) : 0,
+            .is_driven = face.is_driven || growth != 0,
+            .velocity = Bounds::velocity(face, motion.x, {}, motion.t) - normal * growth,
+            .acceleration = Bounds::acceleration(face, motion.t)};
 }
 
 template <class Real>
@@ -150,9 +155,12 @@ Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Tou
 }
 
 template <class Real>
-Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed) {
+Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed,
+                        double growth) {
     const double distance = static_cast<double>(motion.radius) + static_cast<double>(fixed.radius);
-    return {.code = slot, .normal = normal, .bend = -1 / distance};
+    const Vec3 velocity = velocity_of(fixed) - normal * growth;
+    return {
+        .code = slot, .normal = normal, .bend = -1 / distance, .is_driven = velocity != Vec3{}, .velocity = velocity};
 }
 
 template <class Real>
@@ -163,7 +171,7 @@ Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::
     const double across = dot(velocity, n);
     const double slide_squared = std::max(0.0, length_squared(velocity) - across * across);
     const double kick = std::max(0.0, dot(pull, n)) * state.laws.kick_interval;
-    return {dot(state.laws.gravity + pull, n) + support.bend * slide_squared, kick};
+    return {dot(state.laws.gravity + pull - support.acceleration, n) + support.bend * slide_squared, kick};
 }
 
 template <class Real>
@@ -283,10 +291,10 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 }
 
 #define CAROM_INSTANTIATE(Real)                                                                                        \
-    template Support support_by_wall(const State<Real>&, std::uint32_t, const Vec3&, const Motion<Real>&);             \
+    template Support support_by_wall(const State<Real>&, std::uint32_t, const Vec3&, const Motion<Real>&, double);     \
     template Support support_by_facet(const State<Real>&, std::uint32_t, const Touch&, const Motion<Real>&,            \
                                       const Vec3&, const Vec3&);                                                       \
-    template Support support_by_body(std::uint32_t, const Vec3&, const Motion<Real>&, const Motion<Real>&);            \
+    template Support support_by_body(std::uint32_t, const Vec3&, const Motion<Real>&, const Motion<Real>&, double);    \
     template Pressure pressure_on(const State<Real>&, const Motion<Real>&, std::uint32_t, const Support&,              \
                                   const Vec3&);                                                                        \
     template void hold_against(State<Real>&, Index, const Support&, double, Entry&);                                   \

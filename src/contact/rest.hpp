@@ -63,7 +63,7 @@ struct Pressure {
     double kick = 0;         ///< m/s, what the attractors' kicks add between two impacts: no real approach speed
 };
 
-/// On a body at motion.x in `slot` that passes there with `velocity` (m/s).
+/// On a body at motion.x in `slot` that passes there with `velocity` (m/s) relative to the support.
 template <class Real>
 Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::uint32_t slot, const Support& support,
                      const Vec3& velocity);
@@ -92,15 +92,18 @@ double striking_speed_at(const State<Real>& state, Index body, std::uint32_t wal
     return striking_speed(e, load_on(state.bodies, body), state.laws);
 }
 
-/// A wall, a facet of an obstacle (where a body at motion.x + d moves with `velocity`), or a static body, as what a
-/// body may rest against; without friction.
+/// A wall, a facet of an obstacle (where a body at motion.x + d moves with `velocity`), or a static or kinematic body,
+/// as what a body may rest against at its own time; without friction. What grows (m/s, the two together) drives the
+/// surface on.
 template <class Real>
-Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion);
+Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3& normal, const Motion<Real>& motion,
+                        double growth);
 template <class Real>
 Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
                          const Vec3& d, const Vec3& velocity);
 template <class Real>
-Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed);
+Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed,
+                        double growth);
 
 /// Puts a body, standing where it touches the support, to rest against it. `remaining`: s to the end of the step.
 template <class Real>

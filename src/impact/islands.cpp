@@ -104,7 +104,7 @@ void IslandSolver<Real>::predict_batch(std::size_t part, std::size_t begin, std:
         prefetch_object(&state_.bodies.motion[soon.second]);
         auto [a, b] = candidates[k];
         // An event's first body is one that it moves.
-        if (state_.bodies.kind[a] == Kind::fixed) std::swap(a, b);
+        if (is_prescribed(state_.bodies.kind[a])) std::swap(a, b);
         const double time = predict_pair(state_, a, b, window_.from, window_.to);
         if (time <= window_.to) {
             found_[part].push_back({time, a, b, 0, 0});
@@ -119,7 +119,7 @@ void IslandSolver<Real>::enter_first(const Event& event) {
     first_events_.push_back(event);
     first_members_.push_back(member_of(event.a));
     const std::uint32_t a = root_of(first_members_.back());
-    if (event.at_wall() || state_.bodies.kind[event.b] == Kind::fixed) return;
+    if (event.at_wall() || is_prescribed(state_.bodies.kind[event.b])) return;
     const std::uint32_t b = root_of(member_of(event.b));
     parents_[std::max(a, b)] = std::min(a, b);
 }

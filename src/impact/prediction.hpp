@@ -27,6 +27,18 @@ Path<Real> path_of(const State<Real>& state, Index i) {
     return {&bodies.motion[i], acceleration_of(state, i), bodies.kind[i], bodies.slot[i], &bodies, i};
 }
 
+/// m, at a time since the start of the step.
+template <class Real>
+double contact_distance(const Path<Real>& a, const Path<Real>& b, double time) {
+    return radius_at(*a.bodies, a.index, time) + radius_at(*b.bodies, b.index, time);
+}
+
+/// m/s, by which the contact distance grows.
+template <class Real>
+double growth_of(const Path<Real>& a, const Path<Real>& b) {
+    return growth_of(*a.bodies, a.index) + growth_of(*b.bodies, b.index);
+}
+
 /// Two bodies seen at one time.
 struct Meeting {
     Vec3 d_a{};   ///< m, how far a has come since its own time
@@ -74,9 +86,9 @@ double predict_wall(const State<Real>& state, Index body, std::uint32_t wall);
 /// Calls f(time, wall) for every wall and facet that a body meets until `until`.
 template <class Real, class F>
 void for_each_wall_event(const State<Real>& state, Index body, double until, F&& f) {
-    if (state.bodies.kind[body] == Kind::fixed) return;
+    if (is_prescribed(state.bodies.kind[body])) return;
     const Motion<Real>& m = state.bodies.motion[body];
-    const double reach = reach_of(m, acceleration_of(state, body), until);
+    const double reach = reach_of(m, acceleration_of(state, body), until) + state.bodies.top_growth * until;
     const auto look = [&](std::uint32_t wall) {
         const double time = predict_wall(state, body, wall);
         if (time <= until) f(time, Event::wall_bit | wall);

@@ -55,14 +55,14 @@ Haste count_impact(State<Real>& state, Index body, double time, double approach,
 /// Brings a body to the time of its event and outdates its other events.
 template <class Real>
 void take_part(State<Real>& state, Index body, double time, Entry& entry) {
-    if (state.bodies.kind[body] == Kind::fixed) return;
+    if (is_prescribed(state.bodies.kind[body])) return;
     advance(state, body, time, entry);
     ++state.bodies.course[body].version;
 }
 
 template <class Real>
 void set_velocity(State<Real>& state, Index body, const Vec3& v) {
-    if (state.bodies.kind[body] != Kind::fixed) state.bodies.motion[body].v = rounded<Real>(v);
+    if (!is_prescribed(state.bodies.kind[body])) state.bodies.motion[body].v = rounded<Real>(v);
 }
 
 template <class Real>
@@ -99,7 +99,8 @@ void write_down(const Response<double>& response, Occurrence& occurrence) {
 template <class Real>
 Pressure pressure_here(const State<Real>& state, Index body, const Support& support, const Vec3& v) {
     Pressure pressure = pressure_on(state, state.bodies.motion[body], state.bodies.slot[body], support, v);
-    pressure.acceleration = std::max(pressure.acceleration, dot(acceleration_of(state, body), support.normal));
+    pressure.acceleration =
+        std::max(pressure.acceleration, dot(acceleration_of(state, body) - support.acceleration, support.normal));
     return pressure;
 }
 
@@ -108,23 +109,29 @@ bool is_obstacle(const State<Real>& state, const Support& support) {
     return support.is_wall() && state.bounds.is_facet(support.wall());
 }
 
-/// A support that a body touches at `time`: whether the body comes to rest there.
+/// A support that a body, not piled, touches with `v` relative to it: whether the body comes to rest there. `rounding`:
+/// what is slower does not approach at all. On a support that moves it leans, as on another body.
 template <class Real>
-bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double approach, double e) {
+bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double rounding, double e) {
     const auto radius = static_cast<double>(state.bodies.motion[body].radius);
     if (is_obstacle(state, support) && !may_lie_on_obstacle(state, support, radius, v, e)) return false;
     const Pressure pressure = pressure_here(state, body, support, v);
-    if (approach <= approach_rounding<Real>(v, {}, support.normal)) return pressure.acceleration > 0;
-    return comes_to_rest(e, std::max(0.0, approach - pressure.kick), pressure.acceleration, state.laws.rest_time);
+    const double approach = dot(v, support.normal);
+    if (approach <= rounding) return pressure.acceleration > 0;
+    const double felt = std::max(0.0, approach - pressure.kick);
+    if (support.is_driven) return felt < resting_speed(e, pressure.acceleration, state.laws.rest_time);
+    return comes_to_rest(e, felt, pressure.acceleration, state.laws.rest_time);
 }
 
-/// A body, already at its time, against something that does not move: a face or a static body. An approach that is
-/// mere rounding is no impact: the body only finds one more support, beside those it may have.
+/// A body, already at its time, against something whose motion is prescribed: a face, a static or a kinematic body. An
+/// approach that is mere rounding is no impact: the body only finds one more support, beside those it may have.
 template <class Real>
 void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, Occurrence& occurrence) {
     const double time = occurrence.impact.offset;
     Vec3 v = velocity_of(state.bodies.motion[body]);
-    const double approach = dot(v, support.normal);
+    const Vec3 relative = v - support.velocity;
+    const double approach = dot(relative, support.normal);
+    const double rounding = approach_rounding<Real>(v, support.velocity, support.normal);
     bool stays = false;
     const bool leans = is_obstacle(state, support);
     const bool is_piled = state.bodies.kind[body] == Kind::piled;
@@ -133,17 +140,23 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     if (only_stops) encounter.restitution = 0;
     const auto radius = static_cast<double>(state.bodies.motion[body].radius);
     const bool may_rest =
-        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.restitution));
-    bool come_to_rest = may_rest && rests(state, body, support, v, approach, encounter.restitution);
-    if (approach > approach_rounding<Real>(v, {}, support.normal)) {
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, relative, encounter.restitution));
+    bool come_to_rest = may_rest && rests(state, body, support, relative, rounding, encounter.restitution);
+    if (come_to_rest && support.is_driven) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+        return;
+    }
+    if (approach > rounding) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
-        haste.lasts = haste.lasts && !(pressure_here(state, body, support, v).acceleration > 0);
+        haste.lasts = haste.lasts && !(pressure_here(state, body, support, relative).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
-        come_to_rest =
-            come_to_rest || (squeezed && may_rest && pressure_here(state, body, support, v).acceleration >= 0);
+        occurrence.is_crushed = haste.jams && support.is_driven;
+        come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
+                                        pressure_here(state, body, support, relative).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -151,13 +164,15 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         if (come_to_rest) {
             encounter.restitution = 0;
         } else {
-            apply_haste(haste, state.laws, approach, length(v), encounter, occurrence);
+            apply_haste(haste, state.laws, approach, length(relative), encounter, occurrence);
         }
-        Vec3 support_velocity{};
+        Vec3 support_velocity = support.velocity;
         const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
                                                   support_velocity, encounter.restitution, encounter.friction);
         set_velocity(state, body, v);
-        occurrence.entry.outer_impulse += -(support.normal * response.impulse) - response.friction_impulse;
+        const Vec3 impulse = -(support.normal * response.impulse) - response.friction_impulse;
+        occurrence.entry.outer_impulse += impulse;
+        occurrence.entry.prescribed_work += dot(impulse, support.velocity);
         write_down(response, occurrence);
         occurrence.is_impact = !only_stops;
     }
@@ -179,7 +194,7 @@ void put_back(State<Real>& state, Index body, std::uint32_t wall, Entry& entry) 
     constexpr double least = 4; // units
     constexpr double most = 64; // units; more is no rounding
     Motion<Real>& m = state.bodies.motion[body];
-    const Touch touch = state.bounds.impact(wall, m.x, {}, static_cast<double>(m.radius), state.resolution);
+    const Touch touch = state.bounds.impact(wall, m.x, {}, static_cast<double>(m.radius), m.t, state.resolution);
     const double depth = -touch.gap * state.resolution.per_metre;
     if (depth < least || depth > most) return;
     const Int3 shift = round_to_units(touch.normal * touch.gap, state.resolution);
@@ -195,13 +210,18 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const double duration = event.time - m.t;
     const Vec3 d = displacement(velocity_of(m), a, duration);
     const Encounter encounter = encounter_of(state, event.a, state.bounds.surface(wall));
-    const Touch touch = state.bounds.impact(wall, m.x, d, static_cast<double>(m.radius), state.resolution);
-    Support support = state.bounds.is_facet(wall)
-                          ? support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration)
-                          : support_by_wall(state, wall, touch.normal, m);
-    support.friction = encounter.friction;
+    const Touch touch =
+        state.bounds.impact(wall, m.x, d, radius_at(state.bodies, event.a, event.time), event.time, state.resolution);
+    const bool at_facet = state.bounds.is_facet(wall);
+    Support support;
+    if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration);
     take_part(state, event.a, event.time, occurrence.entry);
-    if (state.bounds.is_facet(wall)) put_back(state, event.a, wall, occurrence.entry);
+    if (at_facet) {
+        put_back(state, event.a, wall, occurrence.entry);
+    } else {
+        support = support_by_wall(state, wall, touch.normal, m, growth_of(state.bodies, event.a));
+    }
+    support.friction = encounter.friction;
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
                          .face = state.bounds.face(wall),
@@ -343,7 +363,8 @@ bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& mee
     const Vec3 pull = pull_on(state, b) - pull_on(state, a);
     const double pressing = pressing_along(n, length(meeting.delta), meeting.v_b - meeting.v_a, pull);
     const double speed = resting_speed(e, pressing, state.laws.rest_time);
-    return speed > 0 && dot(meeting.v_a - meeting.v_b, n) <= speed;
+    const double growth = growth_of(bodies, a) + growth_of(bodies, b);
+    return speed > 0 && dot(meeting.v_a - meeting.v_b, n) + growth <= speed;
 }
 
 /// Two bodies that both move.
@@ -358,7 +379,10 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
         return;
     }
     for (const Index body : {a, b}) occurrence.piles_up = wake(state.bodies, body) || occurrence.piles_up;
-    Vec3 v_a = meeting.v_a;
+    // What grows drives the surfaces on: Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990).
+    const double growth = growth_of(state.bodies, a) + growth_of(state.bodies, b);
+    const Vec3 own_growth = impact.normal * growth;
+    Vec3 v_a = meeting.v_a + own_growth;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
@@ -366,9 +390,10 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     Haste haste{.lasts = haste_a.lasts || haste_b.lasts,
                 .collapses = haste_a.collapses || haste_b.collapses,
                 .jams = haste_a.jams || haste_b.jams};
+    occurrence.is_crushed = haste.jams && growth != 0;
     const bool one_lies = state.bodies.kind[a] == Kind::held || state.bodies.kind[b] == Kind::held;
     const bool is_contact = haste.collapses || (haste.lasts && approach < contact_speed(state.laws));
-    if (one_lies && is_contact && stays_on_supports(state, a, -impact.normal) &&
+    if (one_lies && is_contact && growth == 0 && stays_on_supports(state, a, -impact.normal) &&
         stays_on_supports(state, b, impact.normal)) {
         // With the blow passed on, it is no collapse of bodies that are pressed together, only a contact; nor do they
         // fill the room between faces.
@@ -383,17 +408,20 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     release(state.bodies, b);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
-    set_velocity(state, a, v_a);
+    set_velocity(state, a, v_a - own_growth);
     set_velocity(state, b, v_b);
+    occurrence.entry.prescribed_work += response.impulse * growth;
     write_down(response, occurrence);
 }
 
-/// A body, already at its time, against a static one.
+/// A body, already at its time, against a static or kinematic one.
 template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
+    occurrence.piles_up = wake(state.bodies, body);
     const Encounter encounter = encounter_of(state, body, fixed);
-    Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed]);
+    const double growth = growth_of(bodies, body) + growth_of(bodies, fixed);
+    Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed], growth);
     support.friction = encounter.friction;
     meet_support(state, body, support, encounter, occurrence);
 }
@@ -416,9 +444,9 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
                          .x = bodies.motion[a].x,
                          .arm = n * static_cast<double>(bodies.motion[a].radius),
                          .normal = n};
-    if (bodies.kind[a] == Kind::fixed) {
+    if (is_prescribed(bodies.kind[a])) {
         meet_static(state, b, a, -n, occurrence);
-    } else if (bodies.kind[b] == Kind::fixed) {
+    } else if (is_prescribed(bodies.kind[b])) {
         meet_static(state, a, b, n, occurrence);
     } else {
         meet_body(state, a, b, meeting, path_b.acceleration - path_a.acceleration, occurrence);

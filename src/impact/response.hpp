@@ -30,6 +30,7 @@ struct Occurrence {
     bool is_impact = false;    ///< false: a body only found a support that it rests against, or something to lean on
     bool piles_up = false;     ///< the two bodies lean on each other from now on, or one on an obstacle
     bool is_converted = false; ///< the TC rule made it elastic
+    bool is_crushed = false;   ///< what moves as prescribed leaves a body no room: time cannot go on
 };
 
 /// What the impacts of a step add up to, and who writes them down.

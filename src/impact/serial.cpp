@@ -67,21 +67,22 @@ void SerialSolver<Real>::find_neighbours(const Census& census, double from, doub
     for (Index i = 0; i < bodies.size(); ++i) {
         const Motion<Real>& m = bodies.motion[i];
         const Vec3 a = acceleration_of(state_, i);
-        covers_[i] = swept_ball(ticks_, m, a, from, to, slack_);
-        if (state_.bounds.may_touch(m.x, reach_of(m, a, to), state_.resolution)) near_walls_.push_back(i);
+        const double growth = bodies.top_growth * to;
+        covers_[i] = swept_ball(ticks_, m, a, from, to, slack_ + growth);
+        if (state_.bounds.may_touch(m.x, reach_of(m, a, to) + growth, state_.resolution)) near_walls_.push_back(i);
     }
     neighbours_.build(
         *loops_, bodies.size(), ticks_.axes(census), [this](Index i) { return covers_[i]; },
-        [&](Index i) { return bodies.kind[i] != Kind::fixed; });
+        [&](Index i) { return !is_prescribed(bodies.kind[i]); });
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_first(double from, double to) {
     const Bodies<Real>& bodies = state_.bodies;
     for (Index a = 0; a < bodies.size(); ++a) {
-        if (bodies.kind[a] == Kind::fixed) continue;
+        if (is_prescribed(bodies.kind[a])) continue;
         neighbours_.for_each(a, [&](Index b) {
-            if (b > a || bodies.kind[b] == Kind::fixed) predict(a, b, from, to);
+            if (b > a || is_prescribed(bodies.kind[b])) predict(a, b, from, to);
         });
     }
     for (const Index i : near_walls_) predict_walls(i, to);
@@ -108,12 +109,13 @@ Progress SerialSolver<Real>::run_queue(const Window& window, std::uint64_t work_
         state_.books.add(occurrence.entry);
         outcome.add(occurrence);
         if (occurrence.piles_up) until = std::min(until, window.pieces.end_after(event.time));
+        if (occurrence.is_crushed) return {.reached = event.time, .until = until, .crushed = true};
         bool inside = register_motion(event.a, event.time, end());
         if (!event.at_wall()) inside = register_motion(event.b, event.time, end()) && inside;
         if (!inside) return {.reached = event.time, .until = until, .edge_reached = true};
         predict_again(event.a, no_index, event.time, end());
         if (event.at_wall()) continue;
-        const bool seen_from_a = state_.bodies.kind[event.a] != Kind::fixed;
+        const bool seen_from_a = !is_prescribed(state_.bodies.kind[event.a]);
         predict_again(event.b, seen_from_a ? event.a : no_index, event.time, end());
     }
     return {.reached = end(), .until = until};
@@ -146,20 +148,22 @@ void SerialSolver<Real>::prefetch_neighbours(Index body) const {
 
 template <class Real>
 bool SerialSolver<Real>::register_motion(Index body, double now, double to) {
-    if (state_.bodies.kind[body] == Kind::fixed) return true;
+    if (is_prescribed(state_.bodies.kind[body])) return true;
     // To the end of the step, not of the window: no result may depend on windows.
     if (!stays_in_world(state_, body, state_.laws.kick_interval - now)) return false;
     const Vec3 a = acceleration_of(state_, body);
     const Motion<Real>& m = state_.bodies.motion[body];
-    if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to))) return true;
-    neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_));
-    neighbours_.link_all(*loops_, {&body, 1}, [this](Index other) { return state_.bodies.kind[other] != Kind::fixed; });
+    const double growth = state_.bodies.top_growth * to;
+    if (neighbours_.covers(body, swept_ball(ticks_, m, a, now, to, growth))) return true;
+    neighbours_.replace_cover(body, swept_ball(ticks_, m, a, now, to, slack_ + growth));
+    neighbours_.link_all(*loops_, {&body, 1},
+                         [this](Index other) { return !is_prescribed(state_.bodies.kind[other]); });
     return true;
 }
 
 template <class Real>
 void SerialSolver<Real>::predict_again(Index body, Index except, double now, double to) {
-    if (state_.bodies.kind[body] == Kind::fixed) return;
+    if (is_prescribed(state_.bodies.kind[body])) return;
     prefetch_neighbours(body);
     neighbours_.for_each(body, [&](Index other) {
         if (other != except) predict(body, other, now, to);

@@ -26,6 +26,8 @@ struct Progress {
     double until = 0;   ///< where the piece ends: earlier than it was meant to if bodies came to lean on each other
     bool work_cap_reached = false;
     bool edge_reached = false;
+    bool crushed = false;
+    [[nodiscard]] bool ends_step() const { return work_cap_reached || edge_reached || crushed; }
 };
 
 /// Resolves the impacts of windows, one after the other. Keeps its buffers.

@@ -46,6 +46,7 @@ void Workshop<Real>::open(const State<Real>& state, const Vicinity<Real>& vicini
     local_.bounds = state.bounds;
     local_.resolution = state.resolution;
     local_.laws = state.laws;
+    local_.bodies.top_growth = state.bodies.top_growth;
     log.clear();
     log_ids.clear();
     turned.clear();
@@ -66,6 +67,7 @@ void Workshop<Real>::clear() {
     bodies.course.clear();
     bodies.holds.clear();
     bodies.loads.clear();
+    bodies.growth.clear();
     guests_.clear();
     places_.clear();
     turned_.clear();
@@ -89,6 +91,7 @@ Index Workshop<Real>::admit(Index body, bool as_own) {
     bodies.material.append(from.material[body], place);
     bodies.course.push_back({.flight = recent_flight(from, slot)});
     if (!from.loads.empty()) bodies.loads.push_back(from.loads[body]);
+    if (!from.growth.empty()) bodies.growth.push_back(from.growth[body]);
     if (from.kind[body] == Kind::held) bodies.holds[slot] = hold_of(from, body);
     guests_.push_back({.body = body, .is_own = as_own});
     places_.insert(body, place);
@@ -130,7 +133,7 @@ Outturn Workshop<Real>::run(std::span<const Index> bodies, std::span<const Event
 /// Executes an event; false where it needs a body of another island.
 template <class Real>
 bool Workshop<Real>::take(const Event& event) {
-    if (!event.at_wall() && !guests_[event.b].is_own && local_.bodies.kind[event.b] != Kind::fixed) {
+    if (!event.at_wall() && !guests_[event.b].is_own && !is_prescribed(local_.bodies.kind[event.b])) {
         Guest& other = guests_[event.b];
         if ((*memberships_)[other.body] != nowhere) {
             meetings.push_back(other.body);
@@ -149,11 +152,12 @@ bool Workshop<Real>::take(const Event& event) {
 
 template <class Real>
 void Workshop<Real>::execute_event(const Event& event) {
-    const bool two_move = !event.at_wall() && local_.bodies.kind[event.b] != Kind::fixed;
+    const bool two_move = !event.at_wall() && !is_prescribed(local_.bodies.kind[event.b]);
     note_turn(event.a);
     if (two_move) note_turn(event.b);
     log_ids.push_back(ids_of(local_.bodies, event));
     execute(local_, event, log.emplace_back());
+    given_up_ = given_up_ || log.back().is_crushed;
     // Both have to be on their new ways before either looks for the other.
     set_out(event.a, event.time);
     if (two_move) set_out(event.b, event.time);

@@ -74,7 +74,7 @@ public:
     void prefetch_lists(std::span<const Index> bodies) const;
     void prefetch_tracks(std::span<const Index> bodies) const;
 
-    /// The window is for the one queue: an island has too many impacts, or a body leaves the world.
+    /// The window is for the one queue: an island has too many impacts, or a body leaves the world or is crushed.
     [[nodiscard]] bool has_given_up() const { return given_up_; }
     /// Whether a body that turned came to rest, or rests on.
     [[nodiscard]] bool any_rests() const { return any_rests_; }

@@ -52,8 +52,9 @@ ImpactStatistics::ImpactStatistics(const World& world) {
     radius_.resize(ids.empty() ? 0 : ids.back().slot + std::size_t{1});
     for (std::size_t i = 0; i < ids.size(); ++i) radius_[ids[i].slot] = radius[i];
     bodies_ = static_cast<double>(std::count_if(mass.begin(), mass.end(), [](double m) { return m < infinite_mass; }));
-    if (const auto* box = std::get_if<Box>(&world.options().region)) volume_ = volume_of(*box);
-    face_force_.resize(faces_of(world.options().region));
+    const Region region = world.region();
+    if (const auto* box = std::get_if<Box>(&region)) volume_ = volume_of(*box);
+    face_force_.resize(faces_of(region));
     impulse_.resize(face_force_.size());
 }
 

@@ -10,7 +10,8 @@ void Sample::read(const World& world) {
     mass.resize(ids.size());
     radius.resize(ids.size());
     world.get(ids, {.position = position, .velocity = velocity, .mass = mass, .radius = radius});
-    const auto* bounds = std::get_if<Box>(&world.options().region);
+    const Region region = world.region();
+    const auto* bounds = std::get_if<Box>(&region);
     box = bounds != nullptr ? std::optional(*bounds) : std::nullopt;
 }
 

@@ -23,6 +23,9 @@ void read_numbers(const Entry& entry, const ValueReader& value, const NumberRang
 } // namespace
 
 void read_radii(Entry& entry, std::uint64_t seed) {
+    if (const auto growth = entry.table.find("growth")) {
+        read_numbers(entry, *growth, speed_range, entry.bodies.growth);
+    }
     const auto value = entry.find_unless_in_csv("radius", "radius");
     if (!value) return;
     if (!value->is_table()) return read_numbers(entry, *value, radius_range, entry.bodies.radius);

@@ -40,7 +40,7 @@ double sum_of_speeds_times_masses(const World& world) {
 } // namespace
 
 double energy_lost(const Ledger& ledger) {
-    return ledger.lost_to_restitution + ledger.lost_to_friction + ledger.lost_to_drag;
+    return ledger.lost_to_restitution + ledger.lost_to_friction + ledger.lost_to_drag - ledger.prescribed_work;
 }
 
 Books read_books(const World& world) {

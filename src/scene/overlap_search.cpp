@@ -72,7 +72,7 @@ OverlapSearch::OverlapSearch(const Region& region, std::span<const double> radii
 }
 
 OverlapSearch::OverlapSearch(const World& world) : ids_(world.ids()), positions_(world.size()) {
-    take_region(world.options().region);
+    take_region(world.region());
     radii_.resize(ids_.size());
     std::vector<double> masses(ids_.size());
     world.get(ids_, {.mass = masses, .radius = radii_});
@@ -82,6 +82,7 @@ OverlapSearch::OverlapSearch(const World& world) : ids_(world.ids()), positions_
 }
 
 void OverlapSearch::take_region(const Region& region) {
+    walls_.clear();
     if (const auto* box = std::get_if<Box>(&region)) take_box(*box);
     if (const auto* shell = std::get_if<Shell>(&region)) shell_ = *shell;
     if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) {
@@ -112,7 +113,14 @@ void OverlapSearch::make_levels() {
 }
 
 OverlapReport OverlapSearch::find(const World& world) {
-    world.get(ids_, {.position = positions_});
+    take_region(world.region());
+    std::vector<double> radii(ids_.size());
+    world.get(ids_, {.position = positions_, .radius = radii});
+    if (radii != radii_) {
+        radii_ = std::move(radii);
+        levels_.clear();
+        make_levels();
+    }
     return find(positions_);
 }
 

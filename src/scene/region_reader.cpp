@@ -13,6 +13,17 @@ namespace {
 constexpr std::array<std::string_view, 6> face_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
+FaceMotion read_motion(TableReader table) {
+    FaceMotion motion;
+    table.read("velocity", motion.velocity, speed_range);
+    table.read("amplitude", motion.amplitude, radius_range);
+    table.read("angular_frequency", motion.angular_frequency, not_negative);
+    table.read("phase", motion.phase, any_number);
+    table.read("surface_velocity", motion.surface_velocity, speed_range);
+    table.finish();
+    return motion;
+}
+
 FaceKind read_face_kind(const ValueReader& value) {
     constexpr std::array<std::string_view, 3> names{"reflecting", "open", "periodic"};
     constexpr std::array<FaceKind, 3> kinds{FaceKind::reflecting, FaceKind::open, FaceKind::periodic};
@@ -26,11 +37,15 @@ void read_face(const ValueReader& value, Face& face) {
         return;
     }
     if (!value.is_table()) {
-        value.fail(R"(must be "reflecting", "open", "periodic" or a table { kind, restitution, friction })");
+        value.fail(R"(must be "reflecting", "open", "periodic" or a table { kind, restitution, friction, motion })");
     }
     TableReader table = value.table();
     if (const auto kind = table.find("kind")) face.kind = read_face_kind(*kind);
     face.surface = read_surface(table, face.surface);
+    if (const auto motion = table.find("motion")) {
+        if (face.kind != FaceKind::reflecting) motion->fail("is for reflecting faces only");
+        face.motion = read_motion(motion->table());
+    }
     table.finish();
 }
 
@@ -78,6 +93,7 @@ Region read_planes(TableReader& table) {
         entry.read("point", plane.point, coordinate_range);
         if (const auto normal = entry.find("normal")) plane.normal = normal->direction();
         plane.surface = read_surface(entry);
+        if (const auto motion = entry.find("motion")) plane.motion = read_motion(motion->table());
         entry.finish();
         planes.push_back(plane);
     }

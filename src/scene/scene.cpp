@@ -18,6 +18,7 @@ BodyTable BodyTable::of(std::size_t count) {
     table.velocity.assign(count, standard.velocity);
     table.mass.assign(count, standard.mass);
     table.radius.assign(count, standard.radius);
+    table.growth.assign(count, standard.growth);
     table.restitution.assign(count, standard.restitution);
     table.friction.assign(count, standard.friction);
     table.material.assign(count, standard.material);
@@ -29,6 +30,7 @@ void BodyTable::append(const BodyTable& other) {
     append_column(velocity, other.velocity);
     append_column(mass, other.mass);
     append_column(radius, other.radius);
+    append_column(growth, other.growth);
     append_column(restitution, other.restitution);
     append_column(friction, other.friction);
     append_column(material, other.material);
@@ -41,7 +43,8 @@ ConstBodyColumns BodyTable::columns() const {
             .radius = radius,
             .restitution = restitution,
             .friction = friction,
-            .material = material};
+            .material = material,
+            .growth = growth};
 }
 
 } // namespace carom::scene

@@ -29,6 +29,7 @@ struct BodyTable {
     std::vector<Vec3> velocity;
     std::vector<double> mass;
     std::vector<double> radius;
+    std::vector<double> growth;
     std::vector<double> restitution;
     std::vector<double> friction;
     std::vector<std::uint32_t> material;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,8 +29,11 @@ enum class Kind : std::uint8_t {
     held,   ///< its Hold: it rests against faces or static bodies
     piled,  ///< its contacts, as it leans on bodies that move: straight on at a velocity that they give it now and then
     asleep, ///< nothing: it is piled, but its whole island has lain still until something arrives
+    kinematic, ///< its prescribed velocity: straight on, through faces and static bodies, and takes any momentum
 };
 
+/// Whether nothing that happens changes how a body moves: its mass is infinite.
+constexpr bool is_prescribed(Kind kind) { return kind == Kind::fixed || kind == Kind::kinematic; }
 /// Whether a body leans on others that may move.
 constexpr bool leans(Kind kind) { return kind == Kind::piled || kind == Kind::asleep; }
 /// Whether something carries a body, so that it is not in free flight.
@@ -73,6 +77,10 @@ struct Support {
     Vec3 normal{};          ///< unit vector from the body into the support
     double bend = 0;        ///< 1/m, of the path of a body that slides along it; positive where it presses the body on
     double friction = 0;    ///< between the two
+    // Of a support that moves as prescribed. A held body has none of them.
+    bool is_driven = false;
+    Vec3 velocity{};     ///< m/s, of its surface where the body touches it
+    Vec3 acceleration{}; ///< m/s^2
 
     static constexpr std::uint32_t wall_bit = 0x80000000U;
     [[nodiscard]] bool is_wall() const { return (code & wall_bit) != 0; }
@@ -112,6 +120,12 @@ struct Load {
     bool is_told = false;  ///< all that it can meet of its pile in the piece is among its contacts, unless it is struck
 };
 
+/// A radius that grows.
+struct Growth {
+    double radius = 0; ///< m, at the start of the step
+    double rate = 0;   ///< m/s
+};
+
 /// All bodies of a world, one element of each array per body.
 template <class Real>
 struct Bodies {
@@ -123,10 +137,13 @@ struct Bodies {
     Column<Real> friction;
     Column<std::uint32_t> material;
     Column<std::uint64_t> user_data;
+    std::vector<Growth> growth; ///< empty as long as no body grows
+    double top_growth = 0;      ///< m/s, the largest rate in size
     std::vector<Int3> previous; ///< units, at the start of the last step; in use only if `interpolating`
     bool interpolating = false;
 
     std::map<std::uint32_t, Hold> holds;      ///< of the held bodies, by slot
+    std::set<std::uint32_t> kinematics;       ///< slots of the kinematic bodies
     std::vector<ListedBody> listed;           ///< whose contacts are listed
     std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
     double list_age = 0;                      ///< s since it was made
@@ -150,6 +167,7 @@ struct Bodies {
         f(kind);
         f(slot);
         if (interpolating) f(previous);
+        if (!growth.empty()) f(growth);
         for_each_column([&f](auto& column) {
             if (!column.array().empty()) f(column.array());
         });
@@ -163,6 +181,27 @@ struct Bodies {
         f(user_data);
     }
 };
+
+/// m, `time` s after the start of the step; not from before the body's last impact.
+template <class Real>
+double radius_at(const Bodies<Real>& bodies, Index i, double time) {
+    if (bodies.growth.empty()) return static_cast<double>(bodies.motion[i].radius);
+    return bodies.growth[i].radius + bodies.growth[i].rate * time;
+}
+
+/// m/s
+template <class Real>
+double growth_of(const Bodies<Real>& bodies, Index i) {
+    return bodies.growth.empty() ? 0 : bodies.growth[i].rate;
+}
+
+/// Finds the largest rate of growth anew. Without any there is no growth.
+template <class Real>
+void update_top_growth(Bodies<Real>& bodies) {
+    bodies.top_growth = 0;
+    for (const Growth& growth : bodies.growth) bodies.top_growth = std::max(bodies.top_growth, std::abs(growth.rate));
+    if (bodies.top_growth == 0) bodies.growth.clear();
+}
 
 template <class Real>
 const Hold& hold_of(const Bodies<Real>& bodies, Index index) {
@@ -228,6 +267,7 @@ void remove_body(Bodies<Real>& bodies, Index index) {
     let_go(bodies, index);
     const std::uint32_t slot = bodies.slot[index];
     std::erase_if(bodies.recent_flights, [slot](const RecentFlight& f) { return f.slot == slot; });
+    bodies.kinematics.erase(slot);
     bodies.slots[bodies.slot.back()] = index;
     bodies.for_each_array([index](auto& array) {
         array[index] = array.back();

@@ -5,11 +5,14 @@
 
 #include "space/motion.hpp"
 #include "space/obstacles.hpp"
+#include "space/sum.hpp"
 
 #include <carom/region.hpp>
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace carom::core {
@@ -27,6 +30,11 @@ public:
         int axis = -1; ///< 0, 1, 2 if the normal is along an axis, else -1
         Surface surface{};
         std::int32_t face = 0; ///< number in the public API
+        FaceMotion motion{};
+        bool is_driven = false; ///< it moves, or its surface does
+        Sum travelled{};        ///< m towards the bodies, at the start of the step, without the vibration
+        Sum phase{};            ///< rad, at the start of the step
+        double offset = 0;      ///< m from the point towards the bodies, at the start of the step
     };
 
     Bounds() = default;
@@ -38,6 +46,34 @@ public:
     [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
     [[nodiscard]] double shell_radius() const { return shell_radius_; }
 
+    /// Moves a wall in another way, from where it is. Throws Error naming the member of `where` that is refused.
+    void set_motion(std::size_t wall, const FaceMotion& motion, const std::string& where);
+    /// Throws Error naming a face that may run over another one, or leave the world, within `duration` s.
+    void check_motion(double duration, const Resolution& resolution) const;
+    /// A step of `duration` s begins.
+    void begin_step(double duration, const Resolution& resolution);
+    /// It ended after `reached` s.
+    void end_step(double reached);
+    [[nodiscard]] bool any_driven() const { return any_driven_; }
+    /// m, at least how far any wall comes towards the bodies in `duration` s.
+    [[nodiscard]] double farthest_way(double duration) const;
+    /// m from the wall's point towards the bodies, `time` s after the start of the step.
+    [[nodiscard]] static double offset_at(const Wall& wall, double time) {
+        return wall.is_driven ? driven_offset(wall, time) : wall.offset;
+    }
+    /// m/s, of the wall's surface where it touches a body at `x + d` (units + m), `time` s after the start of the step.
+    [[nodiscard]] static Vec3 velocity(const Wall& wall, const Int3& x, const Vec3& d, double time) {
+        return wall.is_driven ? driven_velocity(wall, x, d, time) : Vec3{};
+    }
+    /// m/s^2
+    [[nodiscard]] static Vec3 acceleration(const Wall& wall, double time);
+    /// m/s, at least as fast as the wall ever comes towards the bodies.
+    [[nodiscard]] static double top_speed(const Wall& wall) {
+        return std::max(0.0, wall.motion.velocity) + wall.motion.amplitude * wall.motion.angular_frequency;
+    }
+    template <class Archive>
+    void transfer_motion(Archive& archive);
+
     /// Null where there are none.
     [[nodiscard]] const Obstacles* obstacles() const { return obstacles_.get(); }
     [[nodiscard]] bool is_empty() const { return walls_.empty() && !obstacles_; }
@@ -45,6 +81,7 @@ public:
     [[nodiscard]] std::uint32_t size() const { return first_facet() + (obstacles_ ? obstacles_->size() : 0); }
     [[nodiscard]] std::uint32_t first_facet() const { return static_cast<std::uint32_t>(walls_.size()); }
     [[nodiscard]] bool is_facet(std::uint32_t wall) const { return wall >= first_facet(); }
+    [[nodiscard]] bool is_driven(std::uint32_t wall) const { return !is_facet(wall) && walls_[wall].is_driven; }
     /// The surface of a wall or facet.
     [[nodiscard]] const Surface& surface(std::uint32_t wall) const {
         return is_facet(wall) ? obstacles_->surface(wall - first_facet()) : walls_[wall].surface;
@@ -54,17 +91,18 @@ public:
         if (!is_facet(wall)) return walls_[wall].face;
         return first_obstacle_ + static_cast<std::int32_t>(obstacles_->obstacle_of(wall - first_facet()));
     }
-    /// How a body of `radius` at `x + d` (units + m) meets a wall or facet.
-    [[nodiscard]] Touch impact(std::uint32_t wall, const Int3& x, const Vec3& d, double radius,
+    /// How a body of `radius` at `x + d` (units + m) meets a wall or facet, `time` s after the start of the step.
+    [[nodiscard]] Touch impact(std::uint32_t wall, const Int3& x, const Vec3& d, double radius, double time,
                                const Resolution& resolution) const;
     /// How one at `x` lies on it.
-    [[nodiscard]] Touch contact(std::uint32_t wall, const Int3& x, double radius, const Resolution& resolution) const {
+    [[nodiscard]] Touch contact(std::uint32_t wall, const Int3& x, double radius, double time,
+                                const Resolution& resolution) const {
         return is_facet(wall) ? obstacles_->contact(wall - first_facet(), x, radius)
-                              : impact(wall, x, {}, radius, resolution);
+                              : impact(wall, x, {}, radius, time, resolution);
     }
 
     /// False only if a body at `x` that reaches no further than `reach` (m) along any axis cannot touch a wall or
-    /// facet.
+    /// facet in the present step.
     [[nodiscard]] bool may_touch(const Int3& x, double reach, const Resolution& resolution) const {
         return may_touch_wall(x, reach, resolution) || (obstacles_ && obstacles_->may_touch(x, reach));
     }
@@ -89,8 +127,9 @@ public:
 
     /// Unit vector from a body at `x + d` (units + m) into the face.
     [[nodiscard]] Vec3 normal(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) const;
-    /// m between the face and the surface of a body of `radius` at `x + d` (units + m); negative: through the face.
-    [[nodiscard]] double gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+    /// m between the face and the surface of a body of `radius` at `x + d` (units + m), `time` s after the start of the
+    /// step; negative: through the face.
+    [[nodiscard]] double gap(const Wall& wall, const Int3& x, const Vec3& d, double radius, double time,
                              const Resolution& resolution) const;
     /// m from the shell's centre to a body at `x + d`.
     static Vec3 from_centre(const Wall& wall, const Int3& x, const Vec3& d, const Resolution& resolution) {
@@ -105,10 +144,16 @@ private:
     void add_planes(const std::vector<Plane>& planes, const Resolution& resolution, const Int3& origin);
     void add_shell(const Shell& shell, const Resolution& resolution, const Int3& origin);
 
-    void add_wall(const Wall& wall);
+    void add_wall(Wall wall, const FaceMotion& motion);
+    void narrow(const Wall& wall, double way, const Resolution& resolution);
+    static double driven_offset(const Wall& wall, double time);
+    static Vec3 driven_velocity(const Wall& wall, const Int3& x, const Vec3& d, double time);
+    static double rest_offset(const Wall& wall);
 
     Shape shape_ = Shape::flat;
     bool only_axis_walls_ = true;
+    bool any_driven_ = false;
+    bool is_box_ = false;
     Int3 low_{lowest, lowest, lowest};     ///< units; no axis-aligned wall beyond
     Int3 high_{highest, highest, highest}; ///< units
     std::vector<Wall> walls_;
@@ -119,15 +164,23 @@ private:
     double shell_radius_ = 0;
 };
 
-inline double Bounds::gap(const Wall& wall, const Int3& x, const Vec3& d, double radius,
+inline double Bounds::gap(const Wall& wall, const Int3& x, const Vec3& d, double radius, double time,
                           const Resolution& resolution) const {
     if (shape_ == Shape::shell) return (shell_radius_ - radius) - length(from_centre(wall, x, d, resolution));
     if (wall.axis >= 0) {
         const double depth = metres_between(component(x, wall.axis), component(wall.point, wall.axis), resolution) -
                              component(d, wall.axis);
-        return (component(wall.normal, wall.axis) > 0 ? depth : -depth) - radius;
+        return (component(wall.normal, wall.axis) > 0 ? depth : -depth) - radius - offset_at(wall, time);
     }
-    return -dot(wall.normal, to_metres(x - wall.point, resolution) + d) - radius;
+    return -dot(wall.normal, to_metres(x - wall.point, resolution) + d) - radius - offset_at(wall, time);
+}
+
+template <class Archive>
+void Bounds::transfer_motion(Archive& archive) {
+    for (Wall& wall : walls_) {
+        archive(wall.travelled, wall.phase);
+        wall.offset = rest_offset(wall);
+    }
 }
 
 } // namespace carom::core

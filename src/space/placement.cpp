@@ -35,7 +35,7 @@ std::optional<Index> Placement<Real>::overlapping(Index i, Index end) {
     std::optional<Index> first;
     cells_.for_each_meeting(ball_of(i), [&](Index other) {
         if (other == i || other >= end || (first && *first <= other)) return;
-        if (bodies.kind[i] == Kind::fixed && bodies.kind[other] == Kind::fixed) return;
+        if (is_prescribed(bodies.kind[i]) && is_prescribed(bodies.kind[other])) return;
         const auto other_radius = static_cast<double>(bodies.motion[other].radius);
         const double gap = length(separation(state_, state_.bodies.motion[i], state_.bodies.motion[other], {}, {})) -
                            (radius + other_radius);

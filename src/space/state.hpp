@@ -38,6 +38,7 @@ struct Laws {
 struct Entry {
     double lost_to_restitution = 0; ///< J
     double lost_to_friction = 0;    ///< J
+    double prescribed_work = 0;     ///< J, done by what moves as prescribed
     double held_mass_time = 0;      ///< kg s held against uniform gravity
     Vec3 outer_impulse{};           ///< N s, without uniform gravity's
 };
@@ -47,12 +48,14 @@ struct Books {
     Sum lost_to_restitution;
     Sum lost_to_friction;
     Sum lost_to_drag;
+    Sum prescribed_work;
     Sum held_mass_time;      ///< kg s of the present step, held against uniform gravity
     VectorSum outer_impulse; ///< N s, without uniform gravity's of the present step
 
     void add(const Entry& entry) {
         lost_to_restitution.add(entry.lost_to_restitution);
         lost_to_friction.add(entry.lost_to_friction);
+        prescribed_work.add(entry.prescribed_work);
         held_mass_time.add(entry.held_mass_time);
         outer_impulse.add(entry.outer_impulse);
     }
@@ -110,6 +113,7 @@ Vec3 acceleration_of(const State<Real>& state, Index i) {
     case Kind::fixed:
     case Kind::piled:
     case Kind::asleep:
+    case Kind::kinematic:
         break;
     }
     return {};
@@ -207,6 +211,7 @@ void advance(State<Real>& state, Index i, double s, Entry& entry) {
     const Vec3 a = acceleration_of(state, i);
     const Int3 start = m.x;
     const Vec3 d = move_on(m, a, s, state.resolution);
+    if (!state.bodies.growth.empty()) m.radius = static_cast<Real>(radius_at(state.bodies, i, s));
     if (state.bodies.kind[i] == Kind::held) book_held_way(state, i, a, d, duration, entry);
     if (leans(state.bodies.kind[i])) {
         // What creeps by less than the resolution stays, and gravity does no work on it.

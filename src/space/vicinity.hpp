@@ -150,7 +150,7 @@ private:
     [[nodiscard]] Telling telling_of(Index body) const;
     [[nodiscard]] bool is_told(Index body) const;
     [[nodiscard]] bool are_told(Index a, Index b) const;
-    void charge_held();
+    void charge_led();
     void charge_piled();
     void charge(Index body);
     [[nodiscard]] double resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const;

@@ -1,5 +1,6 @@
 #include "world/engine.hpp"
 
+#include "contact/rest.hpp"
 #include "space/checks.hpp"
 
 namespace carom::core {
@@ -143,6 +144,41 @@ void Engine<Real>::set_attractors(std::span<const Attractor> attractors) {
     attractors_.assign(attractors.begin(), attractors.end());
     attractor_places_ = std::move(places);
     if (!attractors_.empty()) wake_all(state_.bodies);
+}
+
+template <class Real>
+void Engine<Real>::set_face_motion(std::int32_t face, const FaceMotion& motion) {
+    const auto& walls = state_.bounds.walls();
+    const auto found =
+        std::find_if(walls.begin(), walls.end(), [face](const Bounds::Wall& wall) { return wall.face == face; });
+    if (found == walls.end() || state_.bounds.shape() == Bounds::Shape::shell) {
+        throw Error(ErrorCode::out_of_range, "face",
+                    "must be a reflecting face of a box, or a plane, got " + std::to_string(face));
+    }
+    const auto wall = static_cast<std::uint32_t>(found - walls.begin());
+    state_.bounds.set_motion(wall, motion, "motion");
+    Region& region = setting_.options.region;
+    if (auto* box = std::get_if<Box>(&region)) box->faces.at(static_cast<std::size_t>(face)).motion = motion;
+    if (auto* planes = std::get_if<std::vector<Plane>>(&region)) {
+        planes->at(static_cast<std::size_t>(face)).motion = motion;
+    }
+    release_from(state_.bodies, Support::wall_bit | wall);
+    wake_all(state_.bodies);
+    drop_contact_list(state_.bodies);
+    islands_.vicinity().forget();
+}
+
+template <class Real>
+Region Engine<Real>::region() const {
+    Region region = setting_.options.region;
+    auto* const box = std::get_if<Box>(&region);
+    auto* const planes = std::get_if<std::vector<Plane>>(&region);
+    for (const Bounds::Wall& wall : state_.bounds.walls()) {
+        const Vec3 way = wall.normal * -wall.offset;
+        if (box != nullptr) (wall.face % 2 == 0 ? box->min : box->max) += way;
+        if (planes != nullptr) planes->at(static_cast<std::size_t>(wall.face)).point += way;
+    }
+    return region;
 }
 
 template <class Real>

@@ -65,6 +65,8 @@ public:
     void set_drag(const Drag& drag);
     void set_attractors(std::span<const Attractor> attractors);
     [[nodiscard]] std::span<const Attractor> attractors() const noexcept { return attractors_; }
+    void set_face_motion(std::int32_t face, const FaceMotion& motion);
+    [[nodiscard]] Region region() const;
     void set_origin(const std::array<std::int64_t, 3>& origin);
     void set_recording(bool record_impacts, double least_recorded_impulse);
     void set_work_cap(std::uint64_t work_cap) { setting_.options.work_cap = work_cap; }
@@ -102,11 +104,11 @@ private:
     void drop_last(std::size_t remaining);
     void check_overlaps_of_new(std::size_t first_new);
     BodyId give_id(Index index);
-    void check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const;
     void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap);
     void note_places(const std::vector<Index>& indices);
     void check_moved(const std::vector<Index>& indices);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
+    void set_growth(std::span<const double> rates, std::span<const Index> indices);
     [[nodiscard]] std::vector<Kind> kinds_of(std::span<const Index> indices) const;
     void wake_all_for(std::span<const Kind> kinds);
     void drop_attractors_of(BodyId id);
@@ -126,6 +128,7 @@ private:
     /// m/s^2, at least what the attractors do to any body.
     [[nodiscard]] double strongest_attraction() const;
     void check_step(const Census& census, double dt) const;
+    void check_growth(double dt) const;
     void begin_step(double dt);
     double resolve_impacts(const Census& census, double dt);
     void tell_of_pile();
@@ -169,6 +172,7 @@ private:
     [[nodiscard]] bool holds_are_sound() const;
     [[nodiscard]] bool contacts_are_sound() const;
     [[nodiscard]] bool attractors_are_sound() const;
+    [[nodiscard]] bool walls_are_sound() const;
 
     Setting setting_;
     std::uint16_t world_tag_;

@@ -19,6 +19,7 @@ void check_sizes(const auto& columns, std::size_t count) {
     check_size(columns.velocity.size(), count, "velocity");
     check_size(columns.mass.size(), count, "mass");
     check_size(columns.radius.size(), count, "radius");
+    check_size(columns.growth.size(), count, "growth");
     check_size(columns.restitution.size(), count, "restitution");
     check_size(columns.friction.size(), count, "friction");
     check_size(columns.material.size(), count, "material");
@@ -43,6 +44,12 @@ void check_mass(double mass, std::size_t place) {
     if (std::isnan(mass)) throw Error(ErrorCode::not_finite, "mass", "must be a number, got " + shown(mass), place);
     if (!(mass > 0)) throw Error(ErrorCode::out_of_range, "mass", "must be > 0, got " + shown(mass), place);
     check_kept<Real>(mass, "mass", place);
+}
+
+/// What a body of infinite mass is.
+template <class Real>
+Kind prescribed_kind(const Motion<Real>& motion) {
+    return velocity_of(motion) == Vec3{} ? Kind::fixed : Kind::kinematic;
 }
 
 template <class Real>
@@ -124,6 +131,12 @@ void Engine<Real>::check_values(const ConstBodyColumns& columns, std::size_t cou
     for (std::size_t k = 0; k < columns.velocity.size(); ++k) check_velocity<Real>(columns.velocity[k], k);
     for (std::size_t k = 0; k < columns.mass.size(); ++k) check_mass<Real>(columns.mass[k], k);
     for (std::size_t k = 0; k < columns.radius.size(); ++k) check_radius(columns.radius[k], k);
+    for (std::size_t k = 0; k < columns.growth.size(); ++k) {
+        check_finite(columns.growth[k], "growth", k);
+        if (columns.growth[k] != 0 && state_.bounds.obstacles() != nullptr) {
+            throw Error(ErrorCode::out_of_range, "growth", "must be 0 in a world with obstacles", k);
+        }
+    }
     for (std::size_t k = 0; k < columns.restitution.size(); ++k) {
         check_fraction(columns.restitution[k], "restitution", k);
     }
@@ -147,7 +160,7 @@ template <class Real>
 void Engine<Real>::check_inside(const Motion<Real>& motion, std::size_t place) const {
     const auto radius = static_cast<double>(motion.radius);
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
-        const double gap = state_.bounds.gap(wall, motion.x, {}, radius, setting_.resolution);
+        const double gap = state_.bounds.gap(wall, motion.x, {}, radius, 0, setting_.resolution);
         if (gap >= -touching_tolerance(state_, 2 * radius)) continue;
         throw Error(ErrorCode::overlap, "position",
                     "reaches " + shown(-gap) + " m through face " + std::to_string(wall.face) + " of the region",
@@ -182,12 +195,13 @@ void Engine<Real>::append(const ConstBodyColumns& columns, const std::vector<Int
                                  real(columns.radius, k, standard.radius)});
         bodies.slot.push_back(0);
         bodies.mass.append(static_cast<Real>(mass), place);
-        bodies.kind.push_back(std::isinf(mass) ? Kind::fixed : Kind::free);
+        bodies.kind.push_back(std::isinf(mass) ? prescribed_kind(bodies.motion.back()) : Kind::free);
         bodies.restitution.append(real(columns.restitution, k, standard.restitution), place);
         bodies.friction.append(real(columns.friction, k, standard.friction), place);
         bodies.material.append(element(columns.material, k, standard.material), place);
         bodies.user_data.append(element(columns.user_data, k, standard.user_data), place);
         if (bodies.interpolating) bodies.previous.push_back(positions[k]);
+        if (!bodies.growth.empty()) bodies.growth.push_back({element(columns.radius, k, standard.radius), 0});
     }
 }
 
@@ -201,7 +215,7 @@ template <class Real>
 void Engine<Real>::check_overlaps_of_new(std::size_t first_new) {
     const std::size_t end = size();
     for (std::size_t i = first_new; i < end; ++i) {
-        if (state_.bodies.kind[i] != Kind::fixed) check_inside(state_.bodies.motion[i], i - first_new);
+        if (!is_prescribed(state_.bodies.kind[i])) check_inside(state_.bodies.motion[i], i - first_new);
     }
     for (std::size_t i = first_new; i < end; ++i) {
         const auto other = placement_.overlapping(static_cast<Index>(i), static_cast<Index>(i));
@@ -226,6 +240,7 @@ BodyId Engine<Real>::give_id(Index index) {
     }
     bodies.slots[slot] = index;
     bodies.slot[index] = slot;
+    if (bodies.kind[index] == Kind::kinematic) bodies.kinematics.insert(slot);
     return id_of(slot);
 }
 
@@ -234,13 +249,7 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
     const std::size_t count = columns.position.size();
     check_values(columns, count);
     if (count == 0) return {};
-    const Body standard;
-    if (columns.radius.empty()) check_radius(standard.radius, 0);
-    for (std::size_t k = 0; k < count; ++k) {
-        if (!std::isinf(element(columns.mass, k, standard.mass))) continue;
-        if (element(columns.velocity, k, Vec3{}) == Vec3{}) continue;
-        throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
-    }
+    if (columns.radius.empty()) check_radius(Body{}.radius, 0);
     islands_.vicinity().forget();
     const std::size_t first_new = size();
     forget_sums();
@@ -258,10 +267,15 @@ std::vector<BodyId> Engine<Real>::add(const ConstBodyColumns& columns, Overlap o
         drop_last(first_new);
         throw;
     }
-    for (std::size_t k = 0; k < count; ++k) ids[k] = give_id(static_cast<Index>(first_new + k));
-    const bool has_static =
+    std::vector<Index> indices(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        indices[k] = static_cast<Index>(first_new + k);
+        ids[k] = give_id(indices[k]);
+    }
+    set_growth(columns.growth, indices);
+    const bool has_prescribed =
         std::any_of(columns.mass.begin(), columns.mass.end(), [](double m) { return std::isinf(m); });
-    if (has_static) {
+    if (has_prescribed) {
         wake_all(state_.bodies);
         drop_contact_list(state_.bodies);
     }
@@ -279,22 +293,12 @@ void Engine<Real>::get(std::span<const BodyId> ids, const BodyColumns& columns) 
     fill(columns.position, [&](Index i) { return api_position(bodies.motion[i].x); });
     fill(columns.velocity, [&](Index i) { return velocity_of(bodies.motion[i]); });
     fill(columns.mass, [&](Index i) { return static_cast<double>(bodies.mass[i]); });
-    fill(columns.radius, [&](Index i) { return static_cast<double>(bodies.motion[i].radius); });
+    fill(columns.radius, [&](Index i) { return radius_at(bodies, i, 0); });
+    fill(columns.growth, [&](Index i) { return growth_of(bodies, i); });
     fill(columns.restitution, [&](Index i) { return static_cast<double>(bodies.restitution[i]); });
     fill(columns.friction, [&](Index i) { return static_cast<double>(bodies.friction[i]); });
     fill(columns.material, [&](Index i) { return bodies.material[i]; });
     fill(columns.user_data, [&](Index i) { return bodies.user_data[i]; });
-}
-
-template <class Real>
-void Engine<Real>::check_static_rule(const ConstBodyColumns& columns, const std::vector<Index>& indices) const {
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-        const double mass = element(columns.mass, k, static_cast<double>(state_.bodies.mass[indices[k]]));
-        const Vec3 velocity = element(columns.velocity, k, velocity_of(state_.bodies.motion[indices[k]]));
-        if (std::isinf(mass) && velocity != Vec3{}) {
-            throw Error(ErrorCode::out_of_range, "velocity", "must be zero: the body is static", k);
-        }
-    }
 }
 
 template <class Real>
@@ -305,7 +309,7 @@ void Engine<Real>::note_places(const std::vector<Index>& indices) {
 template <class Real>
 void Engine<Real>::check_moved(const std::vector<Index>& indices) {
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (state_.bodies.kind[indices[k]] != Kind::fixed) check_inside(state_.bodies.motion[indices[k]], k);
+        if (!is_prescribed(state_.bodies.kind[indices[k]])) check_inside(state_.bodies.motion[indices[k]], k);
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
         if (!other) continue;
         throw Error(ErrorCode::overlap, "position",
@@ -331,7 +335,7 @@ void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vecto
         if (!positions.empty()) bodies.motion[i].x = positions[k];
         if (!columns.radius.empty()) bodies.motion[i].radius = static_cast<Real>(columns.radius[k]);
         if (!columns.mass.empty() && std::isinf(columns.mass[k])) bodies.kind[i] = Kind::fixed;
-        if (!columns.mass.empty() && bodies.kind[i] == Kind::fixed && !std::isinf(columns.mass[k])) {
+        if (!columns.mass.empty() && is_prescribed(bodies.kind[i]) && !std::isinf(columns.mass[k])) {
             bodies.kind[i] = Kind::free;
         }
     }
@@ -358,32 +362,57 @@ void Engine<Real>::write_columns(const ConstBodyColumns& columns, const std::vec
     };
     write(columns.velocity, [&](Index i, const Vec3& v) { bodies.motion[i].v = rounded<Real>(v); });
     write(columns.mass, [&](Index i, double mass) { bodies.mass.set(i, static_cast<Real>(mass), bodies.size()); });
+    if (!bodies.growth.empty()) {
+        write(columns.radius, [&](Index i, double radius) { bodies.growth[i].radius = radius; });
+    }
+    set_growth(columns.growth, indices);
     write(columns.restitution, [&](Index i, double e) { bodies.restitution.set(i, static_cast<Real>(e), size()); });
     write(columns.friction, [&](Index i, double mu) { bodies.friction.set(i, static_cast<Real>(mu), size()); });
     write(columns.material, [&](Index i, std::uint32_t key) { bodies.material.set(i, key, size()); });
     write(columns.user_data, [&](Index i, std::uint64_t data) { bodies.user_data.set(i, data, size()); });
 }
 
+/// All radii are kept as those that grow if one of them grows.
+template <class Real>
+void Engine<Real>::set_growth(std::span<const double> rates, std::span<const Index> indices) {
+    Bodies<Real>& bodies = state_.bodies;
+    const bool one_grows = std::any_of(rates.begin(), rates.end(), [](double rate) { return rate != 0; });
+    if (rates.empty() || (bodies.growth.empty() && !one_grows)) return;
+    islands_.vicinity().forget();
+    for (std::size_t i = bodies.growth.size(); i < size(); ++i) {
+        bodies.growth.push_back({static_cast<double>(bodies.motion[i].radius), 0});
+    }
+    for (std::size_t k = 0; k < rates.size(); ++k) bodies.growth[indices[k]].rate = rates[k];
+    update_top_growth(bodies);
+}
+
 template <class Real>
 void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& columns, Overlap overlap) {
     check_values(columns, ids.size());
     const std::vector<Index> indices = indices_of(ids);
-    check_static_rule(columns, indices);
     forget_sums();
     const std::vector<Kind> former_kinds = kinds_of(indices);
     move_bodies(columns, indices, overlap);
     write_columns(columns, indices);
     wake_all_for(former_kinds);
-    const bool moved = !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty();
+    const bool moved =
+        !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
     const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
     if (moved || meets_otherwise) drop_contact_list(state_.bodies);
     if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         islands_.vicinity().disturb(indices[k]);
-        if (former_kinds[k] == Kind::fixed && moved) release_from(state_.bodies, ids[k].slot);
-        if (former_kinds[k] == Kind::held) state_.bodies.holds.erase(ids[k].slot);
         Kind& kind = state_.bodies.kind[indices[k]];
         if (rests(kind)) kind = Kind::free;
+        if (is_prescribed(kind)) kind = prescribed_kind(state_.bodies.motion[indices[k]]);
+        const Kind former = former_kinds[k];
+        if (former == Kind::fixed && (moved || kind != Kind::fixed)) release_from(state_.bodies, ids[k].slot);
+        if (former == Kind::held) state_.bodies.holds.erase(ids[k].slot);
+        if (former == Kind::kinematic) state_.bodies.kinematics.erase(ids[k].slot);
+        if (kind == Kind::kinematic) state_.bodies.kinematics.insert(ids[k].slot);
+        if (kind == former || !is_prescribed(kind)) continue;
+        islands_.vicinity().forget();
+        drop_contact_list(state_.bodies);
     }
 }
 
@@ -443,7 +472,9 @@ void Engine<Real>::change_velocities(std::span<const BodyId> ids, std::span<cons
     Bodies<Real>& bodies = state_.bodies;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         check_finite(changes[k], field, k);
-        if (bodies.kind[indices[k]] == Kind::fixed) throw Error(ErrorCode::out_of_range, "id", "the body is static", k);
+        if (!is_prescribed(bodies.kind[indices[k]])) continue;
+        const bool is_static = bodies.kind[indices[k]] == Kind::fixed;
+        throw Error(ErrorCode::out_of_range, "id", is_static ? "the body is static" : "the body is kinematic", k);
     }
     std::vector<Vector3<Real>> formers(indices.size());
     forget_sums();

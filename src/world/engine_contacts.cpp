@@ -41,7 +41,7 @@ Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
     if ((code & Support::wall_bit) != 0) {
         const std::uint32_t wall = code & ~Support::wall_bit;
         contact.face = state_.bounds.face(wall);
-        contact.normal = state_.bounds.contact(wall, m.x, static_cast<double>(m.radius), state_.resolution).normal;
+        contact.normal = state_.bounds.contact(wall, m.x, static_cast<double>(m.radius), 0, state_.resolution).normal;
     } else {
         contact.b = id_of(code);
         const Motion<Real>& other = state_.bodies.motion[state_.bodies.slots[code]];

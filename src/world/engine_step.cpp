@@ -58,7 +58,7 @@ double Engine<Real>::strongest_attraction() const {
     for (const PointField& field : state_.laws.fields) {
         double nearest = std::numeric_limits<double>::infinity();
         for (Index i = 0; i < size(); ++i) {
-            if (state_.bodies.kind[i] == Kind::fixed || state_.bodies.slot[i] == field.carrier) continue;
+            if (is_prescribed(state_.bodies.kind[i]) || state_.bodies.slot[i] == field.carrier) continue;
             const Vec3 d = to_metres(field.x - state_.bodies.motion[i].x, setting_.resolution);
             nearest = std::min(nearest, length_squared(d));
         }
@@ -94,6 +94,23 @@ void Engine<Real>::check_step(const Census& census, double dt) const {
 }
 
 template <class Real>
+void Engine<Real>::check_growth(double dt) const {
+    for (Index i = 0; i < state_.bodies.growth.size(); ++i) {
+        if (state_.bodies.growth[i].rate == 0) continue;
+        const std::size_t slot = state_.bodies.slot[i];
+        const double radius = radius_at(state_.bodies, i, dt);
+        if (radius < 0)
+            throw Error(ErrorCode::out_of_range, "growth", "would make the radius negative in this step", slot);
+        try {
+            check_radius(radius, slot);
+        } catch (const Error& error) {
+            throw Error(ErrorCode::out_of_range, "growth",
+                        std::string("would make the radius too large in this step: ") + error.what(), slot);
+        }
+    }
+}
+
+template <class Real>
 const StepReport& Engine<Real>::step(double dt) {
     Stopwatch watch;
     check_positive(dt, "dt");
@@ -105,6 +122,8 @@ const StepReport& Engine<Real>::step(double dt) {
     if (is_asleep()) return sleep_on(dt);
     const Census census = census_ ? *census_ : take_census_in_parts();
     check_step(census, dt);
+    state_.bounds.check_motion(dt, setting_.resolution);
+    check_growth(dt);
     begin_step(dt);
     report_.seconds.cells += watch.lap();
     first_kick(0.5 * dt);
@@ -158,6 +177,7 @@ template <class Real>
 void Engine<Real>::begin_step(double dt) {
     report_ = {};
     placement_.forget();
+    state_.bounds.begin_step(dt, setting_.resolution);
     contact_changes_.clear();
     if (setting_.options.record_contacts) find_touching(touched_);
     clear_for_reuse(impacts_);
@@ -197,12 +217,13 @@ double Engine<Real>::resolve_impacts(const Census& census, double dt) {
         watch.lap();
         pile_.end_piece(progress.reached);
         for (const Index body : pile_.released()) islands_.vicinity().disturb(body);
-        goes_on = !progress.work_cap_reached && !progress.edge_reached;
+        goes_on = !progress.ends_step();
     }
     pile_.end_step(progress.reached);
     report_.seconds.contacts += watch.lap();
     report_.work_cap_reached = progress.work_cap_reached;
     report_.edge_reached = progress.edge_reached;
+    report_.crushed = progress.crushed;
     report_solvers();
     return progress.reached;
 }
@@ -241,8 +262,8 @@ Progress Engine<Real>::resolve_piece(const Census& census, const Window& all, st
             end = std::min(end, progress.until);
             window.to = std::min(window.to, end);
             ++report_.windows;
-        } while (progress.reached < window.to && !progress.work_cap_reached && !progress.edge_reached);
-        if (progress.work_cap_reached || progress.edge_reached) break;
+        } while (progress.reached < window.to && !progress.ends_step());
+        if (progress.ends_step()) break;
     }
     return progress;
 }
@@ -280,6 +301,9 @@ void Engine<Real>::finish_bodies(double reached) {
         advance(state_, bodies.slots[slot], reached, entry);
         state_.books.add(entry);
     }
+    for (const std::uint32_t slot : bodies.kinematics) {
+        move_on(bodies.motion[bodies.slots[slot]], {}, reached, state_.resolution);
+    }
     std::array<CensusTaker, most_parts> takers{};
     const bool is_periodic = state_.bounds.any_periodic();
     for_each_in_parts(*executor_, bodies.size(), body_grain, [&](std::size_t part, std::size_t k) {
@@ -292,6 +316,10 @@ void Engine<Real>::finish_bodies(double reached) {
         takers[part].count(m, bodies.kind[i]);
     });
     for (std::size_t part = 1; part < most_parts; ++part) takers[0].add(takers[part]);
+    for (Index i = 0; i < bodies.growth.size(); ++i) {
+        bodies.growth[i].radius += bodies.growth[i].rate * reached;
+        bodies.motion[i].radius = static_cast<Real>(bodies.growth[i].radius);
+    }
     census_.reset();
     if (!has_kicks()) census_ = takers[0].census();
     for (RecentFlight& recent : bodies.recent_flights) recent.flight.last_impact -= reached;
@@ -312,7 +340,7 @@ template <class Real>
 double Engine<Real>::sum_moving_mass() const {
     ExactSum sum;
     for (Index i = 0; i < size(); ++i) {
-        if (state_.bodies.kind[i] != Kind::fixed) sum.add(static_cast<double>(state_.bodies.mass[i]));
+        if (!is_prescribed(state_.bodies.kind[i])) sum.add(static_cast<double>(state_.bodies.mass[i]));
     }
     return sum.value();
 }
@@ -343,6 +371,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     const double start = clock_.seconds();
     if (reached > 0) clock_.advance(reached);
     islands_.vicinity().end_step(reached);
+    state_.bounds.end_step(reached);
     last_start_ = start;
     last_step_ = reached;
     if (state_.laws.gravity != Vec3{}) {
@@ -365,6 +394,7 @@ void Engine<Real>::finish_step(double dt, double reached) {
     ledger_.lost_to_restitution = state_.books.lost_to_restitution.value();
     ledger_.lost_to_friction = state_.books.lost_to_friction.value();
     ledger_.lost_to_drag = state_.books.lost_to_drag.value();
+    ledger_.prescribed_work = state_.books.prescribed_work.value();
     ledger_.outer_impulse = state_.books.outer_impulse.value();
 }
 

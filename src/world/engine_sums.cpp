@@ -9,7 +9,7 @@ namespace {
 template <class Real, class F>
 void for_each_mover(const Bodies<Real>& bodies, F&& f) {
     for (const Index i : bodies.slots) {
-        if (i != no_index && bodies.kind[i] != Kind::fixed) f(i);
+        if (i != no_index && !is_prescribed(bodies.kind[i])) f(i);
     }
 }
 

@@ -64,7 +64,7 @@ void Engine<Real>::attract(double duration) {
     std::array<ExactVectorSum, most_parts> impulses{};
     for_each_in_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t k) {
         const auto i = static_cast<Index>(k);
-        if (bodies.kind[i] == Kind::fixed) return;
+        if (is_prescribed(bodies.kind[i])) return;
         Vec3 change = attraction(state_, i) * duration;
         if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
         const Vec3 before = velocity_of(bodies.motion[i]);
@@ -87,7 +87,7 @@ void Engine<Real>::drag(double duration) {
     std::array<Loss, most_parts> losses{};
     for_each_in_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t k) {
         const auto i = static_cast<Index>(k);
-        if (bodies.kind[i] == Kind::fixed) return;
+        if (is_prescribed(bodies.kind[i])) return;
         const Vec3 before = velocity_of(bodies.motion[i]);
         bodies.motion[i].v = rounded<Real>(before * drag_factor(law, length(before), duration));
         const Vec3 after = velocity_of(bodies.motion[i]);

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 7;
+constexpr std::uint32_t snapshot_version = 8;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -30,13 +30,18 @@ void transfer(Archive& archive, Surface& surface) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, FaceMotion& m) {
+    archive(m.velocity, m.amplitude, m.angular_frequency, m.phase, m.surface_velocity);
+}
+
+template <class Archive>
 void transfer(Archive& archive, Face& face) {
-    archive(face.kind, face.surface);
+    archive(face.kind, face.surface, face.motion);
 }
 
 template <class Archive>
 void transfer(Archive& archive, Plane& plane) {
-    archive(plane.point, plane.normal, plane.surface);
+    archive(plane.point, plane.normal, plane.surface, plane.motion);
 }
 
 template <class Archive>
@@ -171,6 +176,11 @@ void transfer(Archive& archive, std::map<std::uint32_t, Hold>& holds) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, Growth& growth) {
+    archive(growth.radius, growth.rate);
+}
+
+template <class Archive>
 void transfer(Archive& archive, ListedBody& listed) {
     archive(listed.slot, listed.x, listed.still);
 }
@@ -182,13 +192,14 @@ void transfer(Archive& archive, ContactForce& force) {
 
 template <class Archive>
 void transfer(Archive& archive, Books& books) {
-    archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.outer_impulse);
+    archive(books.lost_to_restitution, books.lost_to_friction, books.lost_to_drag, books.prescribed_work,
+            books.outer_impulse);
 }
 
 template <class Archive>
 void transfer(Archive& archive, Ledger& ledger) {
     archive(ledger.impacts, ledger.face_impacts, ledger.lost_to_restitution, ledger.lost_to_friction,
-            ledger.lost_to_drag, ledger.outer_impulse);
+            ledger.lost_to_drag, ledger.prescribed_work, ledger.outer_impulse);
 }
 
 template <class Archive>
@@ -263,10 +274,11 @@ OpenedSnapshot open_snapshot(std::span<const std::byte> snapshot) {
 template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
-    archive(b.motion, b.kind, b.slot, b.previous, b.slots, b.generations, b.free_slots, b.holds, b.listed, b.contacts,
-            b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books, attractors_,
-            attractor_places_, clock_, ledger_, last_start_, last_step_);
+    archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.listed,
+            b.contacts, b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books,
+            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
+    state_.bounds.transfer_motion(archive);
 }
 
 template <class Real>
@@ -304,16 +316,19 @@ void Engine<Real>::load(std::span<const std::byte> payload) {
     transfer(reader, state_.bodies);
     if (reader.left() != 0) refuse("has bytes after its end");
     check_loaded();
-    const auto& kinds = state_.bodies.kind;
-    state_.bodies.newly_piled = std::find(kinds.begin(), kinds.end(), Kind::piled) != kinds.end();
+    update_top_growth(state_.bodies);
+    for (Index i = 0; i < size(); ++i) {
+        if (state_.bodies.kind[i] == Kind::piled) state_.bodies.newly_piled = true;
+        if (state_.bodies.kind[i] == Kind::kinematic) state_.bodies.kinematics.insert(state_.bodies.slot[i]);
+    }
 }
 
 /// A checksum finds accidents; whoever writes a right one may still have written nonsense.
 template <class Real>
 void Engine<Real>::check_loaded() const {
     const bool sound = arrays_are_sound() && slots_are_sound() && bodies_are_sound() && flights_are_sound() &&
-                       holds_are_sound() && contacts_are_sound() && attractors_are_sound() && clock_.is_sound() &&
-                       last_start_ >= 0 && last_step_ >= 0;
+                       holds_are_sound() && contacts_are_sound() && attractors_are_sound() && walls_are_sound() &&
+                       clock_.is_sound() && last_start_ >= 0 && last_step_ >= 0;
     if (!sound) refuse("contradicts itself");
 }
 
@@ -321,9 +336,10 @@ template <class Real>
 bool Engine<Real>::arrays_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     const std::size_t expected_previous = b.interpolating ? size() : 0;
+    const std::size_t expected_growth = b.growth.empty() ? 0 : size();
     return b.kind.size() == size() && b.slot.size() == size() && b.previous.size() == expected_previous &&
-           b.mass.is_sound(size()) && b.restitution.is_sound(size()) && b.friction.is_sound(size()) &&
-           b.material.is_sound(size()) && b.user_data.is_sound(size());
+           b.growth.size() == expected_growth && b.mass.is_sound(size()) && b.restitution.is_sound(size()) &&
+           b.friction.is_sound(size()) && b.material.is_sound(size()) && b.user_data.is_sound(size());
 }
 
 template <class Real>
@@ -357,11 +373,14 @@ bool Engine<Real>::bodies_are_sound() const {
         }
         check_finite(velocity_of(m), "velocity", i);
         check_radius(static_cast<double>(m.radius), i);
+        check_finite(growth_of(b, i), "growth", i);
+        if (growth_of(b, i) != 0 && state_.bounds.obstacles() != nullptr) return false;
+        if (static_cast<Real>(radius_at(b, i, 0)) != m.radius) return false;
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);
-        const bool fixed = b.kind[i] == Kind::fixed;
-        if (b.kind[i] > Kind::asleep || !(mass > 0) || std::isinf(mass) != fixed) return false;
-        if (fixed && velocity_of(m) != Vec3{}) return false;
+        const bool prescribed = is_prescribed(b.kind[i]);
+        if (b.kind[i] > Kind::kinematic || !(mass > 0) || std::isinf(mass) != prescribed) return false;
+        if (prescribed && (b.kind[i] == Kind::fixed) != (velocity_of(m) == Vec3{})) return false;
         if ((b.kind[i] == Kind::held) != b.holds.contains(b.slot[i])) return false;
     }
     return true;
@@ -404,14 +423,15 @@ bool Engine<Real>::contacts_are_sound() const {
     check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
     const auto is_asleep = [&](std::uint32_t slot) { return exists(slot) && b.kind[b.slots[slot]] == Kind::asleep; };
+    const auto can_lean = [](Kind kind) { return !is_still(kind) && !is_prescribed(kind); };
     std::vector<bool> is_listed(b.slots.size(), false);
     for (const ListedBody& l : b.listed) {
         check_not_negative(l.still, "listed");
-        if (!exists(l.slot) || is_listed[l.slot] || is_still(b.kind[b.slots[l.slot]])) return false;
+        if (!exists(l.slot) || is_listed[l.slot] || !can_lean(b.kind[b.slots[l.slot]])) return false;
         is_listed[l.slot] = true;
     }
     const auto can_bear = [&](std::uint32_t slot) {
-        return exists(slot) && (b.listed.empty() || is_listed[slot] || b.kind[b.slots[slot]] == Kind::fixed);
+        return exists(slot) && (b.listed.empty() || is_listed[slot] || is_prescribed(b.kind[b.slots[slot]]));
     };
     const auto are_sound = [&](const std::vector<ContactForce>& contacts, const auto& leans, const auto& bears) {
         return std::all_of(contacts.begin(), contacts.end(), [&](const ContactForce& c) {
@@ -421,7 +441,7 @@ bool Engine<Real>::contacts_are_sound() const {
             return leans(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
         });
     };
-    const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && b.kind[b.slots[slot]] != Kind::fixed; };
+    const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && !is_prescribed(b.kind[b.slots[slot]]); };
     const auto is_still_slot = [&](std::uint32_t slot) { return exists(slot) && is_still(b.kind[b.slots[slot]]); };
     return are_sound(b.contacts, is_awake, can_bear) && are_sound(b.sleeping, is_asleep, is_still_slot);
 }
@@ -437,6 +457,14 @@ bool Engine<Real>::attractors_are_sound() const {
 }
 
 template <class Real>
+bool Engine<Real>::walls_are_sound() const {
+    const auto& walls = state_.bounds.walls();
+    return std::all_of(walls.begin(), walls.end(), [](const Bounds::Wall& wall) {
+        return std::isfinite(wall.offset) && std::isfinite(wall.phase.value());
+    });
+}
+
+template <class Real>
 std::uint64_t Engine<Real>::hash() const {
     Hasher hasher;
     hasher(clock_.seconds());
@@ -446,6 +474,7 @@ std::uint64_t Engine<Real>::hash() const {
         hasher(slot);
         hasher.vector(state_.bodies.motion[i].x);
         hasher.vector(state_.bodies.motion[i].v);
+        if (growth_of(state_.bodies, i) != 0) hasher(state_.bodies.growth[i].radius, state_.bodies.growth[i].rate);
         if (leans(state_.bodies.kind[i])) hasher(state_.bodies.kind[i]);
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
@@ -456,6 +485,9 @@ std::uint64_t Engine<Real>::hash() const {
             hasher(c.a, c.code, c.normal);
             hasher.vector(c.friction);
         }
+    }
+    for (const Bounds::Wall& wall : state_.bounds.walls()) {
+        if (wall.is_driven || wall.offset != 0) hasher(wall.offset, wall.phase.value());
     }
     for (const auto& [slot, flight] : state_.bodies.recent_flights) {
         hasher(slot, flight.last_impact, flight.quick_impacts, flight.still_impacts, flight.still_bounces);

@@ -27,7 +27,8 @@ ConstBodyColumns one_row(const Body& body) {
             .restitution = {&body.restitution, 1},
             .friction = {&body.friction, 1},
             .material = {&body.material, 1},
-            .user_data = {&body.user_data, 1}};
+            .user_data = {&body.user_data, 1},
+            .growth = {&body.growth, 1}};
 }
 
 BodyColumns one_row(Body& body) {
@@ -38,7 +39,8 @@ BodyColumns one_row(Body& body) {
             .restitution = {&body.restitution, 1},
             .friction = {&body.friction, 1},
             .material = {&body.material, 1},
-            .user_data = {&body.user_data, 1}};
+            .user_data = {&body.user_data, 1},
+            .growth = {&body.growth, 1}};
 }
 
 } // namespace
@@ -208,6 +210,14 @@ void World::set_attractors(std::span<const Attractor> attractors) {
 
 std::span<const Attractor> World::attractors() const noexcept {
     return std::visit([](const auto& engine) { return engine.attractors(); }, impl_->engine);
+}
+
+void World::set_face_motion(std::int32_t face, const FaceMotion& motion) {
+    impl_->pass([&](auto& engine) { engine.set_face_motion(face, motion); });
+}
+
+Region World::region() const {
+    return impl_->pass([](const auto& engine) { return engine.region(); });
 }
 
 void World::set_origin(const std::array<std::int64_t, 3>& origin) {

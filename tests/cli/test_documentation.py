@@ -45,11 +45,13 @@ class Documentation(CliTest):
                 self.carom(*arguments, expect=code)
 
     def test_scenes(self):
-        scene, faces, obstacle = blocks(SCENES, "toml")
+        scene, faces, shaken, obstacle = blocks(SCENES, "toml")
         self.write("ball.toml", scene)
         self.assertEqual(self.json("run", "ball.toml", "--time", 1)["face_impacts"], 0)
         self.write("faces.toml", scene.replace("max = [10, 10, 10]\n", "max = [10, 10, 10]\n" + faces))
         self.assertEqual(self.json("run", "faces.toml")["contacts"], 1)
+        self.write("shaken.toml", scene.replace("max = [10, 10, 10]\n", "max = [10, 10, 10]\n" + shaken))
+        self.assertEqual(self.json("run", "shaken.toml", "--time", 20)["contacts"], 0) # at 4 g it never rests
         under = scene.replace("position = [5, 5, 9]", "position = [0.5, 0.5, 5]").replace("min = [0, 0, 0]", "min = [-9, -9, 0]")
         self.write("obstacle.toml", under + obstacle)
         self.assertGreater(self.json("run", "obstacle.toml", "--time", 2)["face_impacts"], 0)

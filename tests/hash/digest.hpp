@@ -45,6 +45,7 @@ public:
         add(ledger.lost_to_restitution);
         add(ledger.lost_to_friction);
         add(ledger.lost_to_drag);
+        add(ledger.prescribed_work);
         add(ledger.outer_impulse);
     }
     [[nodiscard]] std::uint64_t value() const { return value_; }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <string_view>
+#include <variant>
 
 namespace carom::test {
 
@@ -91,6 +92,49 @@ inline scene::Scene heap() {
     return scene;
 }
 
+/// Bodies in a box that a piston makes smaller, and others that a ram drives through them.
+inline scene::Scene piston() {
+    constexpr std::size_t count = 66;
+    scene::Scene scene;
+    Box box = cube(6, FaceKind::reflecting);
+    box.faces[1].motion.velocity = 0.25;
+    scene.options.region = box;
+    scene.bodies = scene::BodyTable::of(count);
+    scene.bodies.radius.assign(count, 0.375);
+    scene::Random random = scene::Random::stream(9, 0);
+    scene.bodies.velocity = scene::uniform_velocities(count, -2, 2, random);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto cell = [k](unsigned axis) { return static_cast<double>(k >> 2 * axis & 3U); };
+        scene.bodies.position[k] = {0.5 + 1.25 * cell(0), 0.5 + 1.25 * cell(1), 0.5 + 1.25 * cell(2)};
+    }
+    for (const std::size_t k : {std::size_t{64}, std::size_t{65}}) {
+        scene.bodies.mass[k] = infinite_mass;
+        scene.bodies.position[k] = {k == 64 ? -2.0 : 8.0, 2, 2};
+        scene.bodies.velocity[k] = {k == 64 ? 1.0 : -3.0, 0.25, 0};
+    }
+    return scene;
+}
+
+/// They fall onto a floor that vibrates, and onto one that takes them along.
+inline scene::Scene shaker() {
+    scene::Scene scene = heap();
+    Box box = std::get<Box>(scene.options.region);
+    box.faces[4].motion = {.amplitude = 0.0625, .angular_frequency = 20, .phase = 0.5};
+    box.faces[0].motion.surface_velocity = {0, 1, 0.5};
+    scene.options.region = box;
+    return scene;
+}
+
+/// A dense periodic fluid whose bodies grow until they hardly have room.
+inline scene::Scene growing() {
+    scene::Scene scene = one_cell();
+    scene.bodies.radius.assign(scene.bodies.size(), 0.25);
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        scene.bodies.growth[k] = k % 3 == 0 ? 0.015625 : 0.0078125;
+    }
+    return scene;
+}
+
 /// A ground of triangles that goes up and down, and a funnel over it: bodies bounce off them, and lie on them.
 inline scene::Scene obstacles() {
     constexpr std::uint32_t cells = 6;
@@ -124,14 +168,17 @@ inline scene::Scene obstacles() {
     return scene;
 }
 
-inline constexpr std::array<std::string_view, 5> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
-                                                                   "obstacles"};
+inline constexpr std::array<std::string_view, 8> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
+                                                                   "piston",   "shaker",       "growing", "obstacles"};
 
 inline scene::Scene small_scene(std::string_view name, Precision precision) {
     scene::Scene scene = name == "one_cell"       ? one_cell()
                          : name == "three_bodies" ? three_bodies()
                          : name == "corners"      ? corners()
                          : name == "heap"         ? heap()
+                         : name == "piston"       ? piston()
+                         : name == "shaker"       ? shaker()
+                         : name == "growing"      ? growing()
                                                   : obstacles();
     scene.name = name;
     scene.options.precision = precision;

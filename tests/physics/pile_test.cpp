@@ -211,6 +211,39 @@ TEST(Sleep, EndsWithWhatOneLiesOn) {
     EXPECT_EQ(moved.report().asleep, 0U);
 }
 
+TEST(Sleep, EndsWithWhatMovesAsPrescribed) {
+    World world(sleepy_world(20));
+    for (const double x : {3.0, 17.0}) {
+        for (const double z : {0.5, 1.5, 2.5}) {
+            world.add({.position = {x, 10, z}, .restitution = 0.3, .friction = 0.5});
+        }
+    }
+    run(world, 2);
+    ASSERT_EQ(world.report().asleep, 6U);
+    World on_a_lift = World::load(world.save());
+    on_a_lift.set_face_motion(4, {.velocity = 0.125});
+    on_a_lift.step(dt);
+    EXPECT_EQ(on_a_lift.report().asleep, 0U);
+    run(on_a_lift, 2);
+    EXPECT_EQ(on_a_lift.report().asleep, 0U);
+    EXPECT_NEAR(on_a_lift.get(on_a_lift.ids()[4]).velocity.z, 0.125, 1e-3);
+    on_a_lift.set_face_motion(4, {});
+    run(on_a_lift, 2);
+    EXPECT_EQ(on_a_lift.report().asleep, 6U);
+    // A ram that meets one island after 4 s: the other sleeps on.
+    world.add({.position = {-18, 10, 1.6}, .velocity = {5, 0, 0}, .mass = carom::infinite_mass});
+    run(world, 3.5);
+    EXPECT_EQ(world.report().asleep, 6U);
+    std::uint64_t least = 6;
+    while (world.time() < 7) {
+        world.step(dt);
+        least = std::min(least, world.report().asleep);
+    }
+    EXPECT_EQ(least, 3U);
+    EXPECT_GT(world.get(world.ids()[1]).position.x, 3.5);
+    EXPECT_EQ(world.get(world.ids()[4]).position.x, 17);
+}
+
 /// A bullet into a heap that is asleep, then sleep again: the same bits whoever computes, and from a snapshot.
 TEST(Sleep, BitsDoNotDependOnThreadsTheSolverOrSnapshots) {
     const auto run_with = [](unsigned threads, bool reference, bool saves) {

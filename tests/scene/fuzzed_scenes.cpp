@@ -157,6 +157,7 @@ friction = 0.1
 [region.faces]
 x = "periodic"
 y_min = { kind = "reflecting", friction = 0.1 }
+z_min = { motion = { velocity = 0.1, amplitude = 0.1, angular_frequency = 20, phase = 1, surface_velocity = [1, 0, 0] } }
 z_max = "open"
 [[attractor]]
 body = "sun"
@@ -170,6 +171,7 @@ strength = 3
 name = "sun"
 position = [25, 25, 25]
 velocity = [0, 0, 1]
+growth = 0.1
 [[bodies]]
 generator = "disc"
 count = 50

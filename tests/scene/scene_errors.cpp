@@ -99,6 +99,7 @@ TEST(SceneErrors, EveryKeyIsDocumented) {
         "[region]\nkind = \"box\"\n" + box + "q = 1",
         "[region]\nkind = \"box\"\n" + box + "faces = { q = 1 }",
         "[region]\nkind = \"box\"\n" + box + "faces = { x = { q = 1 } }",
+        "[region]\nkind = \"box\"\n" + box + "faces = { x = { motion = { q = 1 } } }",
         "[region]\nkind = \"planes\"\nplane = [{ q = 1 }]",
         "[region]\nkind = \"shell\"\nradius = 1\nq = 1",
         "[[material]]\nname = \"a\"\nq = 1",

@@ -175,6 +175,23 @@ faces = { x = "periodic", y_min = { friction = 0.1 }, z_min = { restitution = 0 
     EXPECT_EQ(box.faces[5].kind, FaceKind::open);
 }
 
+TEST(SceneFile, ReadsMotions) {
+    const Scene scene = parsed(R"(
+[region]
+kind = "box"
+min = [0, 0, 0]
+max = [1, 2, 3]
+faces = { x_max = { motion = { velocity = 0.5 } }, z_min = { motion = { amplitude = 0.1, angular_frequency = 20, phase = 1, surface_velocity = [1, 0, 0] } } }
+)");
+    const Box& box = std::get<Box>(scene.options.region);
+    EXPECT_EQ(box.faces[1].motion, (FaceMotion{.velocity = 0.5}));
+    EXPECT_EQ(box.faces[4].motion,
+              (FaceMotion{.amplitude = 0.1, .angular_frequency = 20, .phase = 1, .surface_velocity = {1, 0, 0}}));
+    EXPECT_EQ(box.faces[0].motion, FaceMotion{});
+    const Scene planes = parsed("[region]\nkind = \"planes\"\nplane = [{ motion = { velocity = -2 } }]\n");
+    EXPECT_EQ(std::get<std::vector<Plane>>(planes.options.region)[0].motion, (FaceMotion{.velocity = -2}));
+}
+
 TEST(SceneFile, ReadsPlanesAndShells) {
     const Scene planes = parsed(R"(
 [region]

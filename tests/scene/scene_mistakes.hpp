@@ -39,6 +39,23 @@ gravity = [0, 0, -9.81
     {R"(title = 3
 )",
      "s.toml:1: title: must be a text in quotes, got an integer", ""},
+    {R"([region]
+kind = "box"
+min = [0, 0, 0]
+max = [1, 1, 1]
+faces = { x = { kind = "periodic", motion = { velocity = 1 } } }
+)",
+     "s.toml:5: region.faces.x.motion: is for reflecting faces only", ""},
+    {R"([region]
+kind = "planes"
+plane = [{ motion = { amplitude = -1 } }]
+)",
+     "s.toml:3: region.plane[0].motion.amplitude: must be >= 0", "got -1"},
+    {R"([region]
+kind = "planes"
+plane = [{ motion = { speed = 1 } }]
+)",
+     "s.toml:3: region.plane[0].motion.speed: unknown key", "surface_velocity"},
     {R"(seed = -1
 )",
      "s.toml:1: seed: must be an integer in [0, ", "got -1"},

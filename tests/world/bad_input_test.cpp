@@ -69,20 +69,19 @@ std::vector<BadBody> bad_bodies(bool is_single) {
     bad.add_not_finite("radius", b.radius);
     bad.add_out_of_range("radius", b.radius, {-1, -denormal, -1e300, 1e13, 1e300});
     if (is_single) bad.add_out_of_range("radius", b.radius, {1e39, 1e-46, denormal});
+    bad.add_not_finite("growth", b.growth);
     bad.add_not_finite("restitution", b.restitution);
     bad.add_out_of_range("restitution", b.restitution, {-denormal, -1, std::nextafter(1.0, 2.0), 1e300});
     bad.add_not_finite("friction", b.friction);
     bad.add_out_of_range("friction", b.friction, {-denormal, -1, -1e300});
     if (is_single) bad.add_out_of_range("friction", b.friction, {1e39, 1e-46, denormal});
-    b.mass = infinite_mass;
-    bad.add_out_of_range("velocity", b.velocity.z, {1, denormal});
     return bad.take();
 }
 
 /// The same values as columns.
 struct Table {
     std::vector<Vec3> position, velocity;
-    std::vector<double> mass, radius, restitution, friction;
+    std::vector<double> mass, radius, growth, restitution, friction;
     std::vector<std::uint32_t> material;
     std::vector<std::uint64_t> user_data;
 
@@ -91,16 +90,17 @@ struct Table {
         velocity.push_back(body.velocity);
         mass.push_back(body.mass);
         radius.push_back(body.radius);
+        growth.push_back(body.growth);
         restitution.push_back(body.restitution);
         friction.push_back(body.friction);
         material.push_back(body.material);
         user_data.push_back(body.user_data);
     }
     [[nodiscard]] ConstBodyColumns columns() const {
-        return {position, velocity, mass, radius, restitution, friction, material, user_data};
+        return {position, velocity, mass, radius, restitution, friction, material, user_data, growth};
     }
     [[nodiscard]] BodyColumns columns() {
-        return {position, velocity, mass, radius, restitution, friction, material, user_data};
+        return {position, velocity, mass, radius, restitution, friction, material, user_data, growth};
     }
 };
 

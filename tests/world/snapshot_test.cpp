@@ -290,7 +290,11 @@ bool loads_soundly(const Bytes& bytes) {
         try {
             world.step(0.01);
         } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::out_of_world);
+            // A face may be about to run over the opposite one, or a radius to become negative.
+            const bool is_driven = error.code() != ErrorCode::out_of_world;
+            if (is_driven) {
+                EXPECT_TRUE(error.field() == "motion" || error.field() == "growth");
+            }
         }
         static_cast<void>(world.energy());
         static_cast<void>(world.save());
