@@ -23,6 +23,9 @@ double time_to_cover(double gap, double speed, double acceleration) {
     return 2 * gap / top;
 }
 
+/// Whether a body goes another way than in free flight.
+bool is_led(Kind kind) { return rests(kind) || kind == Kind::kinematic; }
+
 void sort_and_unite(std::vector<Index>& bodies) {
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
@@ -54,7 +57,7 @@ void Vicinity<Real>::prepare(const Census& census, const Window& window, bool ki
         window_start_ = relative(window.from);
         window_end_ = static_cast<float>(exact_relative(window.to) + slack * length_);
         neighbours_.drop_extensions();
-        if (window.from == 0) charge_held();
+        if (window.from == 0) charge_led();
         if (window.begins_piece) charge_piled();
         renew_disturbed();
     } else {
@@ -156,7 +159,7 @@ double Vicinity<Real>::spare_windows() const {
 /// Takes new tracks with the old lists; false if so many bodies have no room that the lists had better be built anew.
 template <class Real>
 bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
-    if (!lists_valid_ || neighbours_.crowded()) return false;
+    if (!lists_valid_ || neighbours_.crowded() || !state_.bodies.growth.empty()) return false;
     neighbours_.drop_extensions();
     calendar_.clear();
     const float elapsed = relative(window.from);
@@ -170,7 +173,7 @@ bool Vicinity<Real>::carry_on(const Window& window, std::uint32_t windows) {
         plan_alone(part, body, 0);
         if (room_at(body, needed) < 0) ++without_room[part];
     });
-    charge_held();
+    charge_led();
     if (window.begins_piece) charge_piled();
     std::size_t all = 0;
     for (const std::size_t count : without_room) all += count;
@@ -202,6 +205,8 @@ void Vicinity<Real>::build(const Census& census, double way) {
     // Ticks are 2^-15 of the size or less; tracks are two of them wrong along each axis.
     reach_margin_ = 2e-4 * typical_size_ + 2.0 * Calendar::most_windows * state_.resolution.metres;
     scale_.tolerance = static_cast<float>(4 * reach_margin_);
+    // A radius is as of the body's own time, which may be the start of the step in which the epoch begins.
+    reach_margin_ += state_.bodies.top_growth * (step_end_ + static_cast<double>(epoch_end()));
     // An eighth of the torus, where something has its images.
     longest_reach_ = state_.bounds.any_periodic() ? 0x1p29 * std::min({x, y, z}) : infinite;
     tracks_.resize(bodies);
@@ -288,10 +293,11 @@ void Vicinity<Real>::renew_exits() {
     }
 }
 
-/// Takes the room that the held bodies need in the step.
+/// Takes the room that the held and the kinematic bodies need in the step.
 template <class Real>
-void Vicinity<Real>::charge_held() {
+void Vicinity<Real>::charge_led() {
     for (const auto& [slot, hold] : state_.bodies.holds) charge(state_.bodies.slots[slot]);
+    for (const std::uint32_t slot : state_.bodies.kinematics) charge(state_.bodies.slots[slot]);
 }
 
 /// Takes the room that the piled bodies need in the piece.
@@ -310,8 +316,8 @@ void Vicinity<Real>::charge(Index body) {
     if (tracks_[body].room < 0) exits_.push_back(body);
 }
 
-/// m, at least what a held body moves until the end of the step, or a piled one until that of the piece; a held one may
-/// also be put back onto a curved support, by no more than it slid.
+/// m, at least what a held or kinematic body moves until the end of the step, or a piled one until that of the piece; a
+/// held one may also be put back onto a curved support, by no more than it slid.
 template <class Real>
 double Vicinity<Real>::resting_way(const Motion<Real>& motion, const Vec3& acceleration, Kind kind) const {
     const double duration = (kind == Kind::piled ? piece_end_ : step_end_) - motion.t;
@@ -338,6 +344,8 @@ bool Vicinity<Real>::is_told(Index body) const {
 
 template <class Real>
 bool Vicinity<Real>::are_told(Index a, Index b) const {
+    const std::vector<Kind>& kind = state_.bodies.kind;
+    if (kind[a] == Kind::free || kind[b] == Kind::free) return false; // nearly always
     const Telling of_a = telling_of(a);
     const Telling of_b = telling_of(b);
     return (of_a.unless_struck && of_b.unless_struck) || (of_a.if_slow && of_b.if_slow);
@@ -486,7 +494,8 @@ Track Vicinity<Real>::track_of(const Motion<Real>& m, Kind kind, double room) co
         return track;
     }
     track.start = ticks_.of(m.x, is_free ? v * -now + g * (-0.5 * now * now) : Vec3{});
-    track.reach = static_cast<float>(is_free && sag_ == 0 ? reach : -reach);
+    // Who parts may grow faster.
+    track.reach = static_cast<float>(is_free && sag_ == 0 && state_.bodies.growth.empty() ? reach : -reach);
     track.speed = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     return track;
 }
@@ -497,7 +506,7 @@ void Vicinity<Real>::take_track(Index body, float room, float now) {
     const Motion<Real>& m = state_.bodies.motion[body];
     const Kind kind = state_.bodies.kind[body];
     // The room of a body at rest is what it has beside its way in this step or piece.
-    const double way = rests(kind) ? resting_way(m, acceleration_of(state_, body), kind) : 0;
+    const double way = is_led(kind) ? resting_way(m, acceleration_of(state_, body), kind) : 0;
     put_track(body, track_of(m, kind, static_cast<double>(std::max(0.0F, room)) + way), room, now);
 }
 
@@ -549,19 +558,19 @@ void Vicinity<Real>::take_room(Index body, float now) {
         take_track(body, 0, now);
         return;
     }
-    const bool is_resting = rests(kind);
+    const bool is_bound = is_led(kind);
     const double speed = length(velocity_of(m) - frame_ * exact_relative(m.t));
     const double needed =
-        is_resting ? resting_way(m, acceleration_of(state_, body), kind) : speed * length_ * (1 + 2 * slack) + sag_;
+        is_bound ? resting_way(m, acceleration_of(state_, body), kind) : speed * length_ * (1 + 2 * slack) + sag_;
     // Some more than the body needs if nothing strikes it.
     constexpr double spare = 1.05;
     const double around = std::clamp(spare * speed * (horizon_ - lead_), typical_room_, most_rooms * typical_room_);
     const double ahead = speed * static_cast<double>(std::max(0.0F, middle_ - now));
-    const double room = around + (!is_resting && around >= ahead ? ahead : 0);
+    const double room = around + (!is_bound && around >= ahead ? ahead : 0);
     take_track(body, static_cast<float>(room), now);
     if (needed > room || tracks_[body].room < 0) {
         tracks_[body] = {.start = ticks_.of(m.x), .reach = -std::numeric_limits<float>::infinity(), .room = -1};
-    } else if (is_resting) {
+    } else if (is_bound) {
         tracks_[body].room -= static_cast<float>(needed);
     }
 }
@@ -635,15 +644,18 @@ void Vicinity<Real>::plan_exit(std::size_t part, Index body, std::uint32_t earli
 
 template <class Real>
 void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earliest) {
-    if (state_.bounds.is_empty() || state_.bodies.kind[body] == Kind::fixed || earliest >= windows_) return;
-    if (is_told(body)) return;
+    if (state_.bounds.is_empty() || is_prescribed(state_.bodies.kind[body]) || earliest >= windows_) return;
+    // Contacts tell of walls that rest.
+    if (is_told(body) && !state_.bounds.any_driven()) return;
     if (rests(state_.bodies.kind[body])) {
         calendar_.add_wall(part, earliest, body);
         return;
     }
     const Motion<Real>& m = state_.bodies.motion[body];
     const double end = epoch_ + windows_ * length_ * (1 + slack);
-    const double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    if (state_.bounds.any_driven()) reach += state_.bounds.farthest_way(end);
+    reach += state_.bodies.top_growth * end;
     if (!state_.bounds.may_touch(m.x, reach, state_.resolution)) return;
     const std::uint32_t window = window_of(exact_relative(m.t) + first_wall_contact(m), earliest);
     if (window < windows_) calendar_.add_wall(part, window, body);
@@ -664,9 +676,11 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
     const double margin = wall_margin(m);
     double first = infinite;
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
-        const double gap = state_.bounds.gap(wall, m.x, {}, radius, state_.resolution) - margin;
+        const double gap = state_.bounds.gap(wall, m.x, {}, radius, m.t, state_.resolution) - margin;
         const bool is_flat = state_.bounds.shape() == Bounds::Shape::flat;
-        const double speed = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
+        // A wall's vibration comes and goes: at most as if it always came.
+        const double own = is_flat ? std::max(0.0, dot(v, wall.normal)) : length(v);
+        const double speed = own + state_.bodies.top_growth + (wall.is_driven ? Bounds::top_speed(wall) : 0);
         const double pull = is_flat ? std::max(0.0, dot(g, wall.normal)) : length(g);
         first = std::min(first, time_to_cover(gap, speed, pull));
     }
