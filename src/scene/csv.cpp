@@ -21,7 +21,7 @@ struct Column {
     double& (*cell)(BodyTable& table, std::size_t body);
 };
 
-const std::array<Column, 10> columns{{
+const std::array<Column, 11> columns{{
     {"x", coordinate_range, [](BodyTable& t, std::size_t i) -> double& { return t.position[i].x; }},
     {"y", coordinate_range, [](BodyTable& t, std::size_t i) -> double& { return t.position[i].y; }},
     {"z", coordinate_range, [](BodyTable& t, std::size_t i) -> double& { return t.position[i].z; }},
@@ -32,6 +32,7 @@ const std::array<Column, 10> columns{{
     {"radius", radius_range, [](BodyTable& t, std::size_t i) -> double& { return t.radius[i]; }},
     {"restitution", zero_to_one, [](BodyTable& t, std::size_t i) -> double& { return t.restitution[i]; }},
     {"friction", not_negative, [](BodyTable& t, std::size_t i) -> double& { return t.friction[i]; }},
+    {"growth", speed_range, [](BodyTable& t, std::size_t i) -> double& { return t.growth[i]; }},
 }};
 
 std::string_view trimmed(std::string_view text) {

@@ -18,7 +18,7 @@ struct CsvBodies {
 };
 
 /// Reads a file whose first line names its columns, in any order: x, y, z and, if wanted, vx, vy, vz, mass, radius,
-/// restitution, friction. Empty lines and lines that begin with # are skipped. Throws SceneError with the line.
+/// restitution, friction, growth. Empty lines and lines that begin with # are skipped. Throws SceneError with the line.
 CsvBodies read_csv(const std::filesystem::path& file, std::uint64_t max_bodies);
 
 /// The same from text; `file` is what errors call it.

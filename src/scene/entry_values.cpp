@@ -23,7 +23,7 @@ void read_numbers(const Entry& entry, const ValueReader& value, const NumberRang
 } // namespace
 
 void read_radii(Entry& entry, std::uint64_t seed) {
-    if (const auto growth = entry.table.find("growth")) {
+    if (const auto growth = entry.find_unless_in_csv("growth", "growth")) {
         read_numbers(entry, *growth, speed_range, entry.bodies.growth);
     }
     const auto value = entry.find_unless_in_csv("radius", "radius");

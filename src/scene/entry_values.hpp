@@ -1,5 +1,5 @@
 /// \file
-/// Reads what the bodies of an entry are like: radius, mass, restitution, friction, material.
+/// Reads what the bodies of an entry are like: radius, growth, mass, restitution, friction, material.
 #pragma once
 
 #include "scene/entry.hpp"

@@ -25,9 +25,9 @@ const std::vector<CsvMistake> csv_mistakes{
     {"x,y\n1,2\n", "b.csv:1: column 'z': is missing"},
     {"x,y,z,x\n", "b.csv:1: column 'x': is there twice"},
     {"x,y,z,speed\n",
-     "b.csv:1: column 'speed': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, friction, got 'speed'"},
+     "b.csv:1: column 'speed': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, friction, growth, got 'speed'"},
     {"x,y,z,frictoin\n", "b.csv:1: column 'frictoin': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, "
-                         "friction, got 'frictoin'; did you mean 'friction'?"},
+                         "friction, growth, got 'frictoin'; did you mean 'friction'?"},
     {"# c\n\nx,y,z\n1,2,3\n1,2\n", "b.csv:5: must have 3 values, got 2"},
     {"x,y,z\n1,2,3,4\n", "b.csv:2: must have 3 values, got 4"},
     {"x,y,z\n1,2,\n", "b.csv:2: column 'z': must be a number, got ''"},
@@ -36,7 +36,7 @@ const std::vector<CsvMistake> csv_mistakes{
     {"x,y,z,mass\n1,2,3,1\n\n1,2,3,0\n", "b.csv:4: column 'mass': must be > 0; inf makes a body static, got 0"},
     {"x,y,z,restitution\n1,2,3,2\n", "b.csv:2: column 'restitution': must be in [0, 1], got 2"},
     {"x;y;z\n1;2;3\n", "b.csv:1: column 'x;y;z': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, "
-                       "friction, got 'x;y;z'"},
+                       "friction, growth, got 'x;y;z'"},
     {"x,y,z\n1,2,3\n1,2,3\n1,2,3\n", "b.csv:4: has 3 bodies; at most 2 more are allowed"},
 };
 

@@ -425,7 +425,7 @@ TEST(SceneFile, RandomPlacesKeepClearOfLaterEntries) {
 
 TEST(SceneFile, ACsvFileIsFoundBesideTheScene) {
     const TemporaryFolder folder;
-    (void)folder.write("b.csv", "z,mass,x,y,vy\n3,2,1,2,-0.5\n6,inf,4,5,0\n");
+    (void)folder.write("b.csv", "z,mass,x,y,vy,growth\n3,2,1,2,-0.5,0.1\n6,inf,4,5,0,-0.2\n");
     const auto file = folder.write("s.toml", "[[bodies]]\ngenerator = \"csv\"\nfile = \"b.csv\"\nradius = 0.25\n");
     const BodyTable bodies = load_scene(file).bodies;
     ASSERT_EQ(bodies.size(), 2U);
@@ -433,6 +433,7 @@ TEST(SceneFile, ACsvFileIsFoundBesideTheScene) {
     EXPECT_EQ(bodies.velocity[0], (Vec3{0, -0.5, 0}));
     EXPECT_EQ(bodies.mass[1], infinite_mass);
     EXPECT_EQ(bodies.radius[1], 0.25);
+    EXPECT_EQ(bodies.growth, (std::vector<double>{0.1, -0.2}));
 }
 
 TEST(SceneFile, TheNumberOfBodiesCanBeLimited) {
