@@ -338,6 +338,7 @@ auto Vicinity<Real>::telling_of(Index body) const -> Telling {
 
 template <class Real>
 bool Vicinity<Real>::is_told(Index body) const {
+    if (state_.bodies.kind[body] == Kind::free) return false;
     const Telling telling = telling_of(body);
     return telling.unless_struck || telling.if_slow;
 }
@@ -653,9 +654,8 @@ void Vicinity<Real>::plan_wall(std::size_t part, Index body, std::uint32_t earli
     }
     const Motion<Real>& m = state_.bodies.motion[body];
     const double end = epoch_ + windows_ * length_ * (1 + slack);
-    double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m);
+    double reach = reach_of(m, state_.laws.gravity, end) + wall_margin(m) + state_.bodies.top_growth * end;
     if (state_.bounds.any_driven()) reach += state_.bounds.farthest_way(end);
-    reach += state_.bodies.top_growth * end;
     if (!state_.bounds.may_touch(m.x, reach, state_.resolution)) return;
     const std::uint32_t window = window_of(exact_relative(m.t) + first_wall_contact(m), earliest);
     if (window < windows_) calendar_.add_wall(part, window, body);
