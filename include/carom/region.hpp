@@ -82,6 +82,9 @@ struct Frustum {
     double base_radius = 1; ///< m, >= 0
     double top_radius = 1;  ///< m, >= 0: the base's for a cylinder, 0 for a cone. The two circles are not one.
     Surface surface{};
+    /// rad/s, at which it turns round its axis, as a right-handed screw that goes along it: a drum, a turntable. Its
+    /// friction takes bodies along; without any it makes no difference.
+    double angular_velocity = 0;
 };
 
 /// Triangles without thickness, which bodies touch from both sides, closed or not. Triangles that have corners at the
@@ -92,7 +95,7 @@ struct Mesh {
     Surface surface{};
 };
 
-/// What stands in a world and never moves.
+/// What stands in a world and stays where it is.
 using Obstacle = std::variant<Frustum, Mesh>;
 
 } // namespace carom

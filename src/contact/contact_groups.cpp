@@ -70,24 +70,128 @@ HWY_INLINE HWY_ATTR void store(D lanes, const Vectors<D>& v, std::array<std::arr
     store(lanes, v.z, values[2], lane);
 }
 
-/// Where in an array of four numbers each the elements begin, counted in numbers.
+/// Movers and places are four numbers each. Whole ones are loaded and transposed, which is faster than gathering them
+/// number by number.
 template <class D>
-HWY_INLINE HWY_ATTR auto offsets(D /*lanes*/, const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
-    const hn::RebindToSigned<D> places;
-    const hn::Rebind<std::int32_t, D> narrow;
-    const auto numbers = hn::LoadU(narrow, reinterpret_cast<const std::int32_t*>(indices.data() + lane));
-    if constexpr (sizeof(Number<D>) == sizeof(std::int32_t)) {
-        return hn::ShiftLeft<2>(numbers);
+struct Fours {
+    Vectors<D> xyz;
+    hn::Vec<D> w;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+template <class D>
+Fours<D> load_fours(D lanes, const Number<D>* from, const std::uint32_t* indices) {
+    const Number<D>* const four = from + 4 * std::size_t{*indices};
+    return {{hn::Set(lanes, four[0]), hn::Set(lanes, four[1]), hn::Set(lanes, four[2])}, hn::Set(lanes, four[3])};
+}
+
+template <class D>
+void store_fours(D lanes, const Fours<D>& fours, Number<D>* to, const std::uint32_t* indices) {
+    Number<D>* const four = to + 4 * std::size_t{*indices};
+    hn::StoreU(fours.xyz.x, lanes, four);
+    hn::StoreU(fours.xyz.y, lanes, four + 1);
+    hn::StoreU(fours.xyz.z, lanes, four + 2);
+    hn::StoreU(fours.w, lanes, four + 3);
+}
+
+#else
+
+inline constexpr std::size_t block_bytes = 16;
+
+/// Loads a vector block by block: the one with the number b from at(b).
+template <class D, class F>
+HWY_INLINE HWY_ATTR hn::Vec<D> load_blocks(D lanes, F&& at, std::size_t first = 0) {
+    if constexpr (sizeof(Number<D>) * hn::MaxLanes(D()) == block_bytes) {
+        return hn::LoadU(lanes, at(first));
     } else {
-        return hn::ShiftLeft<2>(hn::PromoteTo(places, numbers));
+        const hn::Half<D> half;
+        constexpr std::size_t blocks = sizeof(Number<D>) * hn::MaxLanes(hn::Half<D>()) / block_bytes;
+        const auto lower = load_blocks(half, at, first);
+        return hn::Combine(lanes, load_blocks(half, at, first + blocks), lower);
+    }
+}
+template <class D, class F>
+HWY_INLINE HWY_ATTR void store_blocks(D lanes, hn::Vec<D> v, F&& at, std::size_t first = 0) {
+    if constexpr (sizeof(Number<D>) * hn::MaxLanes(D()) == block_bytes) {
+        hn::StoreU(v, lanes, at(first));
+    } else {
+        const hn::Half<D> half;
+        constexpr std::size_t blocks = sizeof(Number<D>) * hn::MaxLanes(hn::Half<D>()) / block_bytes;
+        store_blocks(half, hn::LowerHalf(half, v), at, first);
+        store_blocks(half, hn::UpperHalf(half, v), at, first + blocks);
     }
 }
 
-template <class D, class I>
-HWY_INLINE HWY_ATTR Vectors<D> gather(D lanes, const Number<D>* from, I at) {
-    return {hn::GatherIndex(lanes, from, at), hn::GatherIndex(lanes, from + 1, at),
-            hn::GatherIndex(lanes, from + 2, at)};
+/// Turns rows into columns, or columns into rows, in each block.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE HWY_ATTR void transpose(D lanes, V& a, V& b, V& c, V& d) {
+    const hn::RepartitionToWide<D> pairs;
+    const auto ab = hn::BitCast(pairs, hn::InterleaveLower(lanes, a, b));
+    const auto cd = hn::BitCast(pairs, hn::InterleaveLower(lanes, c, d));
+    const auto ab_upper = hn::BitCast(pairs, hn::InterleaveUpper(lanes, a, b));
+    const auto cd_upper = hn::BitCast(pairs, hn::InterleaveUpper(lanes, c, d));
+    a = hn::BitCast(lanes, hn::InterleaveLower(pairs, ab, cd));
+    b = hn::BitCast(lanes, hn::InterleaveUpper(pairs, ab, cd));
+    c = hn::BitCast(lanes, hn::InterleaveLower(pairs, ab_upper, cd_upper));
+    d = hn::BitCast(lanes, hn::InterleaveUpper(pairs, ab_upper, cd_upper));
 }
+
+template <class D>
+HWY_INLINE HWY_ATTR Fours<D> load_fours(D lanes, const Number<D>* from, const std::uint32_t* indices) {
+    if constexpr (sizeof(Number<D>) == sizeof(float)) { // a block is a whole element
+        const auto row = [&](std::size_t k) HWY_ATTR {
+            return load_blocks(lanes,
+                               [&](std::size_t block) { return from + 4 * std::size_t{indices[4 * block + k]}; });
+        };
+        auto x = row(0);
+        auto y = row(1);
+        auto z = row(2);
+        auto w = row(3);
+        transpose(lanes, x, y, z, w);
+        return {{x, y, z}, w};
+    } else { // half an element
+        const auto row = [&](std::size_t k, std::size_t half) HWY_ATTR {
+            return load_blocks(
+                lanes, [&](std::size_t block) { return from + 4 * std::size_t{indices[2 * block + k]} + 2 * half; });
+        };
+        const auto xy_even = row(0, 0);
+        const auto xy_odd = row(1, 0);
+        const auto zw_even = row(0, 1);
+        const auto zw_odd = row(1, 1);
+        return {{hn::InterleaveLower(lanes, xy_even, xy_odd), hn::InterleaveUpper(lanes, xy_even, xy_odd),
+                 hn::InterleaveLower(lanes, zw_even, zw_odd)},
+                hn::InterleaveUpper(lanes, zw_even, zw_odd)};
+    }
+}
+
+template <class D>
+HWY_INLINE HWY_ATTR void store_fours(D lanes, const Fours<D>& fours, Number<D>* to, const std::uint32_t* indices) {
+    if constexpr (sizeof(Number<D>) == sizeof(float)) {
+        auto [x, y, z] = fours.xyz;
+        auto w = fours.w;
+        transpose(lanes, x, y, z, w);
+        const auto put = [&](std::size_t k, hn::Vec<D> row) HWY_ATTR {
+            store_blocks(lanes, row, [&](std::size_t block) { return to + 4 * std::size_t{indices[4 * block + k]}; });
+        };
+        put(0, x);
+        put(1, y);
+        put(2, z);
+        put(3, w);
+    } else {
+        const auto& [x, y, z] = fours.xyz;
+        const auto put = [&](std::size_t k, std::size_t half, hn::Vec<D> row) HWY_ATTR {
+            store_blocks(lanes, row,
+                         [&](std::size_t block) { return to + 4 * std::size_t{indices[2 * block + k]} + 2 * half; });
+        };
+        put(0, 0, hn::InterleaveLower(lanes, x, y));
+        put(0, 1, hn::InterleaveLower(lanes, z, fours.w));
+        put(1, 0, hn::InterleaveUpper(lanes, x, y));
+        put(1, 1, hn::InterleaveUpper(lanes, z, fours.w));
+    }
+}
+
+#endif
 
 /// The movers of one side of some contacts.
 template <class D>
@@ -99,32 +203,24 @@ struct Side {
 template <class D>
 HWY_INLINE HWY_ATTR Side<D> load_side(D lanes, const Mover<Number<D>>* movers,
                                       const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
-    const auto* const numbers = reinterpret_cast<const Number<D>*>(movers);
-    const auto at = offsets(lanes, indices, lane);
-    return {gather(lanes, numbers, at), hn::GatherIndex(lanes, numbers + 3, at)};
-}
-
-template <class D>
-HWY_INLINE HWY_ATTR void store_velocities(D lanes, const Vectors<D>& v, Mover<Number<D>>* movers,
-                                          const std::array<std::uint32_t, group_size>& indices, std::size_t lane) {
-    HWY_ALIGN std::array<std::array<Number<D>, group_size>, 3> out{};
-    store(lanes, v, out, 0);
-    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
-        movers[indices[lane + k]].v = {out[0][k], out[1][k], out[2][k]};
-    }
+    const auto fours = load_fours(lanes, reinterpret_cast<const Number<D>*>(movers), indices.data() + lane);
+    return {fours.xyz, fours.w};
 }
 
 /// Gives b an impulse, and a the opposite.
 template <class D>
 HWY_INLINE HWY_ATTR void push(D lanes, const ContactRun<Number<D>>& run, const ContactGroup<Number<D>>& group,
                               std::size_t lane, const Side<D>& a, const Side<D>& b, const Vectors<D>& impulse) {
-    store_velocities(lanes, a.v - scaled(impulse, a.inverse_mass), run.movers, group.a, lane);
-    store_velocities(lanes, b.v + scaled(impulse, b.inverse_mass), run.movers, group.b, lane);
+    auto* const movers = reinterpret_cast<Number<D>*>(run.movers);
+    store_fours(lanes, {a.v - scaled(impulse, a.inverse_mass), a.inverse_mass}, movers, group.a.data() + lane);
+    store_fours(lanes, {b.v + scaled(impulse, b.inverse_mass), b.inverse_mass}, movers, group.b.data() + lane);
 }
 
-/// Normals and gaps as the balls are now.
+/// Where balls are now, and the normal and the gap between them.
 template <class D>
 struct Sight {
+    Fours<D> a;
+    Fours<D> b;
     Vectors<D> normal;
     hn::Vec<D> gap;
 };
@@ -133,18 +229,18 @@ template <class D>
 HWY_INLINE HWY_ATTR Sight<D> look(D lanes, const ContactRun<Number<D>>& run, const ContactGroup<Number<D>>& group,
                                   std::size_t lane) {
     const auto zero = hn::Zero(lanes);
-    const auto* const numbers = reinterpret_cast<const Number<D>*>(run.places);
-    const auto from = gather(lanes, numbers, offsets(lanes, group.a, lane));
-    const auto to = gather(lanes, numbers, offsets(lanes, group.b, lane));
+    const auto* const places = reinterpret_cast<const Number<D>*>(run.places);
+    const auto a = load_fours(lanes, places, group.a.data() + lane);
+    const auto b = load_fours(lanes, places, group.b.data() + lane);
     const auto apart = load(lanes, group.apart, lane);
-    const auto delta = apart + (to - from);
+    const auto delta = apart + (b.xyz - a.xyz);
     const auto distance = hn::Sqrt(dot(delta, delta));
     const auto touching = load(lanes, group.touching, lane);
     const auto is_seen = hn::Ge(touching, zero);
     const auto has_normal = hn::And(is_seen, hn::Gt(distance, zero));
     const auto divisor = hn::IfThenElse(has_normal, distance, hn::Set(lanes, Number<D>{1}));
     const Vectors<D> unit{hn::Div(delta.x, divisor), hn::Div(delta.y, divisor), hn::Div(delta.z, divisor)};
-    return {chosen(has_normal, unit, chosen(is_seen, load(lanes, group.normal, lane), apart)),
+    return {a, b, chosen(has_normal, unit, chosen(is_seen, load(lanes, group.normal, lane), apart)),
             hn::IfThenElse(is_seen, hn::Sub(distance, touching), load(lanes, group.gap, lane))};
 }
 
@@ -255,15 +351,11 @@ HWY_INLINE HWY_ATTR void note_carried(D lanes, const ContactRun<Number<D>>& run,
 }
 
 template <class D>
-HWY_INLINE HWY_ATTR void note_pressings(D lanes, const ContactRun<Number<D>>& run,
-                                        const std::array<std::uint32_t, group_size>& movers, std::size_t lane,
-                                        hn::Vec<D> pressings) {
-    HWY_ALIGN std::array<Number<D>, group_size> out{};
-    store(lanes, pressings, out, 0);
-    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
-        Number<D>& pressing = run.pressings[movers[lane + k]];
-        pressing = std::max(pressing, out[k]);
-    }
+HWY_INLINE HWY_ATTR void note_pressing(D lanes, const ContactRun<Number<D>>& run,
+                                       const std::array<std::uint32_t, group_size>& movers, std::size_t lane,
+                                       const Fours<D>& place, hn::Vec<D> pressing) {
+    const auto larger = hn::IfThenElse(hn::Gt(pressing, place.w), pressing, place.w);
+    store_fours(lanes, {place.xyz, larger}, reinterpret_cast<Number<D>*>(run.places), movers.data() + lane);
 }
 
 template <class Real>
@@ -299,8 +391,8 @@ HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces
         const auto carries = hn::And(hn::Gt(hn::Add(before, after), zero), hn::Gt(b.inverse_mass, zero));
         note_carried(lanes, run, group, lane, carries);
         const auto force = hn::Mul(after, frequency);
-        note_pressings(lanes, run, group.a, lane, hn::Mul(force, a.inverse_mass));
-        note_pressings(lanes, run, group.b, lane, hn::Mul(force, b.inverse_mass));
+        note_pressing(lanes, run, group.a, lane, sight.a, hn::Mul(force, a.inverse_mass));
+        note_pressing(lanes, run, group.b, lane, sight.b, hn::Mul(force, b.inverse_mass));
     });
     return losses;
 }

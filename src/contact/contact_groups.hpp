@@ -22,11 +22,11 @@ struct alignas(4 * sizeof(Real)) Mover {
     Real inverse_mass = 0; ///< 1/kg; 0 for anchors
 };
 
-/// A vector as movers are kept: whole in one load.
+/// What else the passes know of a mover.
 template <class Real>
 struct alignas(4 * sizeof(Real)) Place {
-    Vector3<Real> x{}; ///< m
-    Real unused = 0;
+    Vector3<Real> x{}; ///< m, how far it has come since it was listed
+    Real pressing = 0; ///< m/s^2: what its strongest contact does to it, at least
 };
 
 /// Eight contacts that have no movers in common; where there are fewer, they are of idle anchors.
@@ -74,10 +74,9 @@ template <class Real>
 struct ContactRun {
     std::span<ContactGroup<Real>> groups;
     Mover<Real>* movers = nullptr;
-    const Place<Real>* places = nullptr; ///< per mover, how far it has come since it was listed
-    std::uint8_t* carried = nullptr;     ///< per mover, set to 1 where a contact between two bodies carried it
-    Real* pressings = nullptr;           ///< per mover, m/s^2: what its strongest contact does to it, at least
-    bool rubs = false;                   ///< whether any contact has friction
+    Place<Real>* places = nullptr;   ///< per mover
+    std::uint8_t* carried = nullptr; ///< per mover, set to 1 where a contact between two bodies carried it
+    bool rubs = false;               ///< whether any contact has friction
 };
 
 /// All of them take the groups in their order. Those that return a number return the energy that friction took, J.

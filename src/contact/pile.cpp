@@ -162,7 +162,7 @@ void Pile<Real>::end_step(double reached) {
 
 template <class Real>
 ContactRun<Real> Pile<Real>::run_of(std::span<ContactGroup<Real>> groups) {
-    return {groups, movers_.data(), places_.data(), carried_.data(), pressings_.data(), list_.rubs()};
+    return {groups, movers_.data(), places_.data(), carried_.data(), list_.rubs()};
 }
 
 /// Calls solve(run), which returns the energy (J) that friction took, for all contacts.
@@ -232,6 +232,11 @@ auto Pile<Real>::surface_velocity(const ContactName& name, const Vec3& normal) c
         const Index other = bodies.slots[name.code];
         return detail::narrow<Real>(velocity_of(bodies.motion[other]) + grown - normal * growth_of(bodies, other));
     }
+    if (state_.bounds.is_facet(name.wall())) {
+        const Motion<Real>& m = bodies.motion[body];
+        return detail::narrow<Real>(state_.bounds.obstacles()->surface_velocity(
+            name.wall() - state_.bounds.first_facet(), m.x, {}, static_cast<double>(m.radius), normal));
+    }
     const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
     if (!wall.is_driven) return detail::narrow<Real>(grown);
     const Vec3 now = Bounds::velocity(wall, bodies.motion[body].x, {}, now_);
@@ -293,6 +298,7 @@ void Pile<Real>::close_contacts() {
         const ContactGroup<Real>& group = list_.group_of(name);
         const std::size_t lane = name.lane();
         const bool is_gone = ((marks_[group.a[lane]] | marks_[group.b[lane]]) & gone) != 0;
+        if (!is_gone && !is_closing(name)) return;
         const auto number = static_cast<std::uint32_t>(&name - list_.names().data());
         const double gap = gap_of(name);
         const double approach = approach_of(name);
@@ -352,6 +358,15 @@ double Pile<Real>::approach_of(const ContactName& name) const {
     return dot(detail::wide(movers_[a].v) - detail::wide(movers_[b].v), contact_normal(delta, Vec3{}));
 }
 
+/// Whether the two go so fast relative to each other that they could strike, whatever their normal.
+template <class Real>
+bool Pile<Real>::is_closing(const ContactName& name) const {
+    const ContactGroup<Real>& group = list_.group_of(name);
+    const Vec3 v_a = detail::wide(movers_[group.a[name.lane()]].v);
+    const Vec3 v_b = detail::wide(movers_[group.b[name.lane()]].v);
+    return length_squared(v_a - v_b) > least_strike_ * least_strike_;
+}
+
 template <class Real>
 double Pile<Real>::strike_of(const ContactName& name) const {
     const Bodies<Real>& bodies = state_.bodies;
@@ -369,12 +384,13 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const std::uint32_t a = group.a[name.lane()];
     const std::uint32_t b = group.b[name.lane()];
     if (((marks_[a] | marks_[b]) & gone) != 0) return false;
-    // A surface that moves as prescribed may do so in another way soon.
-    if (name.is_driven) return !std::isinf(gap);
+    // What moves as prescribed may do so in another way soon; but what turns is where it is.
+    if (name.is_driven && !(name.is_wall() && state_.bounds.is_facet(name.wall()))) return !std::isinf(gap);
+    if (!is_closing(name)) return false;
     // The normal turns on the way.
     const double closing = length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v));
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
-    return closing > least_strike_ && way >= gap && closing > strike_of(name);
+    return way >= gap && closing > strike_of(name);
 }
 
 /// Whether a body may sink so deep into an obstacle in the piece that it has to be stopped.
@@ -484,14 +500,17 @@ void Pile<Real>::go() {
         const Vector v = movers_[k].v;
         const Vector start = std::exchange(state_.bodies.motion[body].v, v);
         shares_[k] = v - (start + fall_);
-        enter(k, v);
         if (mark(k)) findings.has_fast = true;
         const double speed_squared = length_squared(detail::wide(v));
         const double moved_squared = length_squared(detail::wide(places_[k].x));
         const bool is_told = speed_squared <= told_speed_ * told_speed_
                                  ? moved_squared <= room_if_slow * room_if_slow
                                  : std::sqrt(moved_squared) + std::sqrt(speed_squared) * piece_ <= room;
-        state_.bodies.loads[body] = {v, (v - start) * frequency, pressings_[k], is_told};
+        Load<Real>& load = state_.bodies.loads[body];
+        load.given = v;
+        load.pull = (v - start) * frequency;
+        load.pressing = places_[k].pressing;
+        load.is_told = is_told;
         if (!is_told) findings.bodies.push_back(body);
     });
     collect(untold_);
@@ -504,9 +523,14 @@ void Pile<Real>::arrive(double at) {
         advance_leaner(k, at);
         place(k);
         carried_[k] = 0;
-        pressings_[k] = 0;
-        movers_[k].v = entered_[k] = state_.bodies.motion[bodies_[k]].v;
-        if (mark(k)) findings.has_fast = true;
+        places_[k].pressing = 0;
+        const Vector v = state_.bodies.motion[bodies_[k]].v;
+        if (v != movers_[k].v) { // it was struck, and the impact is in the books
+            enter(k, movers_[k].v);
+            movers_[k].v = entered_[k] = v;
+            mark(k);
+        }
+        if ((marks_[k] & fast) != 0) findings.has_fast = true;
         if (is_far(k)) findings.has_far = true;
     });
     collect(untold_);
@@ -519,8 +543,9 @@ void Pile<Real>::come_to_rest() {
     const bool had_far = has_far_;
     for_each_leaner([this](Findings& findings, std::size_t k) {
         const Index body = bodies_[k];
-        state_.bodies.motion[body].v = movers_[k].v;
-        shares_[k] += movers_[k].v - entered_[k];
+        Vector& v = state_.bodies.motion[body].v;
+        shares_[k] += movers_[k].v - v;
+        v = movers_[k].v;
         double& still = state_.bodies.listed[k].still;
         still = length_squared(detail::wide(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
         if (carried_[k] != 0) return;

@@ -155,6 +155,7 @@ private:
     void reopen_contacts();
     [[nodiscard]] double gap_of(const ContactName& name) const;
     [[nodiscard]] double approach_of(const ContactName& name) const;
+    [[nodiscard]] bool is_closing(const ContactName& name) const;
     [[nodiscard]] double strike_of(const ContactName& name) const;
     [[nodiscard]] bool may_strike(const ContactName& name, double gap) const;
     [[nodiscard]] bool may_sink(const ContactName& name) const;
@@ -206,10 +207,9 @@ private:
     std::vector<Account> accounts_;
     // Per mover.
     LineVector<Mover<Real>> movers_;
-    LineVector<Place<Real>> places_; ///< how far it has come since it was listed
+    LineVector<Place<Real>> places_;
     std::vector<std::uint8_t> marks_;
     std::vector<std::uint8_t> carried_;
-    std::vector<Real> pressings_; ///< m/s^2, as in Load
 
     std::vector<Closed> closed_;
     std::uint8_t all_marks_ = 0;

@@ -52,7 +52,9 @@ double Pile<Real>::unlisted_approach() const {
 template <class Real>
 bool Pile<Real>::is_driven() const {
     const Bodies<Real>& bodies = state_.bodies;
-    return state_.bounds.any_driven() || !bodies.kinematics.empty() || bodies.top_growth != 0;
+    const Obstacles* obstacles = state_.bounds.obstacles();
+    return state_.bounds.any_driven() || (obstacles != nullptr && obstacles->any_turns()) ||
+           !bodies.kinematics.empty() || bodies.top_growth != 0;
 }
 
 template <class Real>
@@ -140,7 +142,6 @@ void Pile<Real>::start_values() {
     movers_.assign(list_.movers(), {});
     places_.assign(list_.movers(), {});
     carried_.assign(list_.movers(), 0);
-    pressings_.assign(list_.movers(), 0);
     marks_.resize(list_.movers(), 0);
     losses_.resize(list_.bundles());
     for_each_leaner([&](Findings& findings, std::size_t k) {
@@ -221,7 +222,8 @@ void Pile<Real>::note_pressings() {
     const auto frequency = static_cast<Real>(1 / piece_);
     list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
         const auto press = [&](std::uint32_t mover, Real impulse) {
-            pressings_[mover] = std::max(pressings_[mover], impulse * movers_[mover].inverse_mass * frequency);
+            Real& pressing = places_[mover].pressing;
+            pressing = std::max(pressing, impulse * movers_[mover].inverse_mass * frequency);
         };
         for (const ContactGroup<Real>& group : groups) {
             for (std::size_t lane = 0; lane < group_size; ++lane) {

@@ -149,9 +149,12 @@ template <class Real>
 Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
                          const Vec3& d, const Vec3& velocity) {
     const std::uint32_t facet = wall - state.bounds.first_facet();
+    const Obstacles& obstacles = *state.bounds.obstacles();
     return {.code = Support::wall_bit | wall,
             .normal = touch.normal,
-            .bend = state.bounds.obstacles()->bend(facet, motion.x, d, velocity)};
+            .bend = obstacles.bend(facet, motion.x, d, velocity),
+            .velocity =
+                obstacles.surface_velocity(facet, motion.x, d, static_cast<double>(motion.radius), touch.normal)};
 }
 
 template <class Real>

@@ -205,8 +205,10 @@ double predict_piled_at_facet(const State<Real>& state, Index body, std::uint32_
     for (const double depth : {deepest_in_surface * contact, 0.5 * std::min(distance, deepest_in_surface * contact)}) {
         const double stop = obstacles.time_to(facet, m.x, v, {}, depth, horizon);
         if (stop == no_impact) return no_impact;
-        const Vec3 n = obstacles.impact(facet, m.x, v * stop, static_cast<double>(m.radius)).normal;
-        if (dot(v, n) > approach_rounding<Real>(v, {}, n)) return m.t + stop;
+        const auto radius = static_cast<double>(m.radius);
+        const Vec3 n = obstacles.impact(facet, m.x, v * stop, radius).normal;
+        const Vec3 u = obstacles.surface_velocity(facet, m.x, v * stop, radius, n);
+        if (dot(v - u, n) > approach_rounding<Real>(v, u, n)) return m.t + stop;
     }
     return no_impact;
 }
@@ -227,7 +229,8 @@ double predict_facet(const State<Real>& state, Index body, std::uint32_t wall) {
     if (time == no_impact) return no_impact;
     const Touch touch = obstacles.impact(facet, m.x, {}, radius);
     const bool touches = touch.gap <= state.resolution.metres;
-    if (!touches || std::abs(dot(v, touch.normal)) > approach_rounding<Real>(v, {}, touch.normal)) return m.t + time;
+    const Vec3 u = obstacles.surface_velocity(facet, m.x, {}, radius, touch.normal);
+    if (!touches || std::abs(dot(v - u, touch.normal)) > approach_rounding<Real>(v, u, touch.normal)) return m.t + time;
     // An approach that is mere rounding is none. Whatever presses the body comes to lie; what may not do that strikes
     // as soon as it is a little deeper.
     const double e = encounter_of(state, body, state.bounds.surface(wall)).restitution;

@@ -109,18 +109,43 @@ bool is_obstacle(const State<Real>& state, const Support& support) {
     return support.is_wall() && state.bounds.is_facet(support.wall());
 }
 
-/// A support that a body, not piled, touches with `v` relative to it: whether the body comes to rest there. `rounding`:
-/// what is slower does not approach at all. On a support that moves it leans, as on another body.
+/// A support that a body, not piled, touches at the speed `approach`, and goes along with `v`: whether the body comes
+/// to rest there. `rounding`: what is slower does not approach at all. On a support that moves it leans, as on another
+/// body.
 template <class Real>
-bool rests(const State<Real>& state, Index body, const Support& support, const Vec3& v, double rounding, double e) {
-    const auto radius = static_cast<double>(state.bodies.motion[body].radius);
-    if (is_obstacle(state, support) && !may_lie_on_obstacle(state, support, radius, v, e)) return false;
+bool rests(const State<Real>& state, Index body, const Support& support, double approach, const Vec3& v,
+           double rounding, double e) {
     const Pressure pressure = pressure_here(state, body, support, v);
-    const double approach = dot(v, support.normal);
     if (approach <= rounding) return pressure.acceleration > 0;
     const double felt = std::max(0.0, approach - pressure.kick);
     if (support.is_driven) return felt < resting_speed(e, pressure.acceleration, state.laws.rest_time);
     return comes_to_rest(e, felt, pressure.acceleration, state.laws.rest_time);
+}
+
+/// A body comes to lie on a support: on an obstacle, or on what moves, it leans, as in a pile.
+template <class Real>
+void lie_down(State<Real>& state, Index body, const Support& support, Occurrence& occurrence) {
+    if (support.is_driven || is_obstacle(state, support)) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+    } else {
+        hold_against(state, body, support, state.laws.kick_interval - occurrence.impact.offset, occurrence.entry);
+    }
+}
+
+/// The blow itself.
+template <class Real>
+void strike(State<Real>& state, Index body, const Support& support, const Encounter& encounter,
+            Occurrence& occurrence) {
+    Vec3 v = velocity_of(state.bodies.motion[body]);
+    Vec3 support_velocity = support.velocity;
+    const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass, support_velocity,
+                                              encounter.restitution, encounter.friction);
+    set_velocity(state, body, v);
+    const Vec3 impulse = -(support.normal * response.impulse) - response.friction_impulse;
+    occurrence.entry.outer_impulse += impulse;
+    occurrence.entry.prescribed_work += dot(impulse, support.velocity);
+    write_down(response, occurrence);
 }
 
 /// A body, already at its time, against something whose motion is prescribed: a face, a static or a kinematic body. An
@@ -128,7 +153,7 @@ bool rests(const State<Real>& state, Index body, const Support& support, const V
 template <class Real>
 void meet_support(State<Real>& state, Index body, const Support& support, Encounter encounter, Occurrence& occurrence) {
     const double time = occurrence.impact.offset;
-    Vec3 v = velocity_of(state.bodies.motion[body]);
+    const Vec3 v = velocity_of(state.bodies.motion[body]);
     const Vec3 relative = v - support.velocity;
     const double approach = dot(relative, support.normal);
     const double rounding = approach_rounding<Real>(v, support.velocity, support.normal);
@@ -140,23 +165,24 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     if (only_stops) encounter.restitution = 0;
     const auto radius = static_cast<double>(state.bodies.motion[body].radius);
     const bool may_rest =
-        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, relative, encounter.restitution));
-    bool come_to_rest = may_rest && rests(state, body, support, relative, rounding, encounter.restitution);
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.restitution));
+    // What turns stays where it is: what presses a body on there is its own way along it.
+    const Vec3 along = leans ? v : relative;
+    bool come_to_rest = may_rest && rests(state, body, support, approach, along, rounding, encounter.restitution);
     if (come_to_rest && support.is_driven) {
-        pile_up(state.bodies, body);
-        occurrence.piles_up = true;
+        lie_down(state, body, support, occurrence);
         return;
     }
     if (approach > rounding) {
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
-        haste.lasts = haste.lasts && !(pressure_here(state, body, support, relative).acceleration > 0);
+        haste.lasts = haste.lasts && !(pressure_here(state, body, support, along).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
         const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
         occurrence.is_crushed = haste.jams && support.is_driven;
         come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
-                                        pressure_here(state, body, support, relative).acceleration >= 0);
+                                        pressure_here(state, body, support, along).acceleration >= 0);
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -166,24 +192,13 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         } else {
             apply_haste(haste, state.laws, approach, length(relative), encounter, occurrence);
         }
-        Vec3 support_velocity = support.velocity;
-        const Response<double> response = respond(support.normal, mass_of(state, body), v, infinite_mass,
-                                                  support_velocity, encounter.restitution, encounter.friction);
-        set_velocity(state, body, v);
-        const Vec3 impulse = -(support.normal * response.impulse) - response.friction_impulse;
-        occurrence.entry.outer_impulse += impulse;
-        occurrence.entry.prescribed_work += dot(impulse, support.velocity);
-        write_down(response, occurrence);
+        strike(state, body, support, encounter, occurrence);
         occurrence.is_impact = !only_stops;
     }
-    const double remaining = state.laws.kick_interval - time;
-    if (come_to_rest && leans) {
-        pile_up(state.bodies, body);
-        occurrence.piles_up = true;
-    } else if (come_to_rest) {
-        hold_against(state, body, support, remaining, occurrence.entry);
+    if (come_to_rest) {
+        lie_down(state, body, support, occurrence);
     } else if (stays) {
-        refresh_hold(state, body, remaining, occurrence.entry);
+        refresh_hold(state, body, state.laws.kick_interval - time, occurrence.entry);
     }
 }
 

@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kinds{"cylinder", "cone", "frustum", "disc", "mesh"};
 
-/// A direction, of any length but zero, and where it starts.
+/// A direction, of any length but zero, where it starts, and how fast the frustum turns round it.
 Frustum read_axis(TableReader& table) {
     Frustum frustum;
     table.read("base", frustum.base, coordinate_range);
     if (const auto axis = table.find("axis")) frustum.axis = axis->direction();
+    table.read("angular_velocity", frustum.angular_velocity, rate_range);
     return frustum;
 }
 

@@ -37,6 +37,7 @@ inline constexpr NumberRange zero_to_one{0, 1, false, false, "must be in [0, 1]"
 inline constexpr NumberRange coordinate_range{-1e30, 1e30, false, false, "must be in [-1e30, 1e30] m"};
 inline constexpr NumberRange length_range{0, 1e30, true, false, "must be > 0 and at most 1e30 m"};
 inline constexpr NumberRange radius_range{0, 1e30, false, false, "must be >= 0 and at most 1e30 m"};
+inline constexpr NumberRange rate_range{-1e30, 1e30, false, false, "must be in [-1e30, 1e30] rad/s"};
 inline constexpr NumberRange speed_range{-1e30, 1e30, false, false, "must be in [-1e30, 1e30] m/s"};
 inline constexpr NumberRange mass_range{0, largest_double, true, true, "must be > 0; inf makes a body static"};
 

@@ -81,7 +81,10 @@ public:
     [[nodiscard]] std::uint32_t size() const { return first_facet() + (obstacles_ ? obstacles_->size() : 0); }
     [[nodiscard]] std::uint32_t first_facet() const { return static_cast<std::uint32_t>(walls_.size()); }
     [[nodiscard]] bool is_facet(std::uint32_t wall) const { return wall >= first_facet(); }
-    [[nodiscard]] bool is_driven(std::uint32_t wall) const { return !is_facet(wall) && walls_[wall].is_driven; }
+    /// Whether a wall or facet, or its surface, moves.
+    [[nodiscard]] bool is_driven(std::uint32_t wall) const {
+        return is_facet(wall) ? obstacles_->turns(wall - first_facet()) : walls_[wall].is_driven;
+    }
     /// The surface of a wall or facet.
     [[nodiscard]] const Surface& surface(std::uint32_t wall) const {
         return is_facet(wall) ? obstacles_->surface(wall - first_facet()) : walls_[wall].surface;

@@ -30,6 +30,7 @@ void check_frustum(const Frustum& frustum, const std::string& name) {
         throw Error(ErrorCode::out_of_range, name + ".base_radius", "must be > 0, or top_radius must be");
     }
     check_surface(frustum.surface, name);
+    check_finite(frustum.angular_velocity, name + ".angular_velocity");
 }
 
 void check_triangles(const Mesh& mesh, const std::string& name) {
@@ -89,6 +90,8 @@ void Obstacles::add(const Frustum& frustum, const std::string& name, const Int3&
     Solid& solid = solids_.back();
     solid.anchor = position_units(frustum.base, resolution_, origin, name + ".base");
     solid.surface = frustum.surface;
+    solid.spin = axis * frustum.angular_velocity;
+    any_turns_ = any_turns_ || frustum.angular_velocity != 0;
     solid.shape = detail::Frustum({}, axis, frustum.height, frustum.base_radius, frustum.top_radius);
     Item item = box_of(solid.anchor, least({}, top) - around, greatest({}, top) + around);
     item.facet = facets_;
@@ -302,6 +305,13 @@ double Obstacles::bend(std::uint32_t facet, const Int3& x, const Vec3& d, const 
     };
     if (const auto* frustum = std::get_if<detail::Frustum>(&solid.shape)) return bend_of(*frustum);
     return bend_of(std::get<Surfaces>(solid.shape).triangles[facet - solid.first]);
+}
+
+Vec3 Obstacles::surface_velocity(std::uint32_t facet, const Int3& x, const Vec3& d, double radius,
+                                 const Vec3& normal) const {
+    const Solid& solid = solids_[obstacle_of(facet)];
+    if (solid.spin == Vec3{}) return {};
+    return cross(solid.spin, place_in(solid, x, d) + normal * contact_distance(radius));
 }
 
 double Obstacles::distance_to(std::uint32_t facet, const Int3& x) const {

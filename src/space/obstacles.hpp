@@ -40,6 +40,12 @@ public:
                1;
     }
     [[nodiscard]] const Surface& surface(std::uint32_t facet) const { return solids_[obstacle_of(facet)].surface; }
+    /// Whether the surface of any obstacle moves, or that of a facet.
+    [[nodiscard]] bool any_turns() const { return any_turns_; }
+    [[nodiscard]] bool turns(std::uint32_t facet) const { return solids_[obstacle_of(facet)].spin != Vec3{}; }
+    /// m/s, of a facet where a body of `radius` at `x + d` (units + m) touches it: along it.
+    [[nodiscard]] Vec3 surface_velocity(std::uint32_t facet, const Int3& x, const Vec3& d, double radius,
+                                        const Vec3& normal) const;
 
     /// m, the distance at which a body of `radius` touches: a smaller one would be rounded through a surface.
     [[nodiscard]] double contact_distance(double radius) const {
@@ -104,6 +110,7 @@ private:
         Int3 anchor{};           ///< units
         std::uint32_t first = 0; ///< facet
         Surface surface{};
+        Vec3 spin{}; ///< rad/s, round an axis through the anchor
         std::variant<detail::Frustum, Surfaces> shape{};
     };
     /// Of the tree of boxes, in the order of a walk: the first child follows its parent.
@@ -138,6 +145,7 @@ private:
 
     Resolution resolution_{};
     std::uint32_t facets_ = 0;
+    bool any_turns_ = false;
     std::vector<std::uint32_t> firsts_; ///< facet of each obstacle
     std::vector<Solid> solids_;
     std::vector<Node> nodes_;

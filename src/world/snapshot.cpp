@@ -91,7 +91,8 @@ void transfer(Archive& archive, Region& region) {
 
 template <class Archive>
 void transfer(Archive& archive, Frustum& frustum) {
-    archive(frustum.base, frustum.axis, frustum.height, frustum.base_radius, frustum.top_radius, frustum.surface);
+    archive(frustum.base, frustum.axis, frustum.height, frustum.base_radius, frustum.top_radius, frustum.surface,
+            frustum.angular_velocity);
 }
 
 template <class Archive>

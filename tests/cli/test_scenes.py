@@ -86,6 +86,19 @@ class Scenes(CliTest):
         self.assertGreater(max(row["contacts"] for row in rows), 300)
         self.assertLess(min(row["contacts"] for row in rows if row["time"] > 1), 30)
 
+    def test_drum(self):
+        # What slides down the slope drives others into each other for a moment.
+        summary, rows = self.whole("drum", max_overlap=0.1)
+        self.assertLess(abs(summary["energy_drift"]), 1e-9)
+        # 500 balls of m = 2.26 kg lie at the bottom first; the drum takes them up by more than a quarter of its radius on average,
+        # and keeps them going.
+        deepest = min(row["potential"] for row in rows)
+        mass = 500 * 2500 * math.pi / 6 * 0.12**3
+        for row in rows:
+            if row["time"] > 2.5:
+                self.assertGreater(row["potential"] - deepest, mass * 9.81 * 0.25 * 1.2, row["time"])
+                self.assertGreater(row["kinetic"], 0.5 * 0.5 * mass * (0.8 * 1.2)**2, row["time"])
+
     def test_heap(self):
         # What falls from five metres drives others into each other for a moment.
         summary, rows = self.whole("heap", max_overlap=0.05)

@@ -37,7 +37,6 @@ struct Scene {
     std::array<carom::core::Mover<Real>, movers> bodies{};
     std::array<carom::core::Place<Real>, movers> places{};
     std::array<std::uint8_t, movers> carried{};
-    std::array<Real, movers> pressings{};
     double loss = 0;
 
     Scene() {
@@ -52,7 +51,7 @@ struct Scene {
         }
     }
     [[nodiscard]] carom::core::ContactRun<Real> run(bool rubs) {
-        return {{&group, 1}, bodies.data(), places.data(), carried.data(), pressings.data(), rubs};
+        return {{&group, 1}, bodies.data(), places.data(), carried.data(), rubs};
     }
     void solve_hard(bool rubs) {
         loss = carom::core::group_solver<Real>().solve_hard(run(rubs), static_cast<Real>(frequency));
@@ -73,7 +72,7 @@ struct Scene {
         }
         for (std::size_t k = 0; k < movers; ++k) {
             add(wide(bodies[k].v));
-            all.insert(all.end(), {static_cast<double>(carried[k]), static_cast<double>(pressings[k])});
+            all.insert(all.end(), {static_cast<double>(carried[k]), static_cast<double>(places[k].pressing)});
         }
         return all;
     }

@@ -5,6 +5,7 @@
 #include "scene/generators.hpp"
 #include "scene/scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -151,9 +152,12 @@ inline scene::Scene obstacles() {
         ground.triangles.push_back({k, k + 1, k + cells + 2});
         ground.triangles.push_back({k, k + cells + 2, k + cells + 1});
     }
-    scene.options.obstacles = {
-        ground,
-        Frustum{.base = {0.125, 0, 1.5}, .axis = {0.125, 0, 1}, .height = 1.5, .base_radius = 0.5, .top_radius = 2}};
+    scene.options.obstacles = {ground, Frustum{.base = {0.125, 0, 1.5},
+                                               .axis = {0.125, 0, 1},
+                                               .height = 1.5,
+                                               .base_radius = 0.5,
+                                               .top_radius = 2,
+                                               .angular_velocity = 1.5}};
     scene.bodies = scene::BodyTable::of(count);
     scene.bodies.restitution.assign(count, 0.5);
     scene.bodies.friction.assign(count, 0.25);
@@ -168,18 +172,23 @@ inline scene::Scene obstacles() {
     return scene;
 }
 
-inline constexpr std::array<std::string_view, 8> small_scene_names{"one_cell", "three_bodies", "corners", "heap",
-                                                                   "piston",   "shaker",       "growing", "obstacles"};
+struct SmallScene {
+    std::string_view name;
+    scene::Scene (*make)();
+};
+inline constexpr std::array<SmallScene, 8> small_scenes{{{"one_cell", one_cell},
+                                                         {"three_bodies", three_bodies},
+                                                         {"corners", corners},
+                                                         {"heap", heap},
+                                                         {"piston", piston},
+                                                         {"shaker", shaker},
+                                                         {"growing", growing},
+                                                         {"obstacles", obstacles}}};
 
 inline scene::Scene small_scene(std::string_view name, Precision precision) {
-    scene::Scene scene = name == "one_cell"       ? one_cell()
-                         : name == "three_bodies" ? three_bodies()
-                         : name == "corners"      ? corners()
-                         : name == "heap"         ? heap()
-                         : name == "piston"       ? piston()
-                         : name == "shaker"       ? shaker()
-                         : name == "growing"      ? growing()
-                                                  : obstacles();
+    const auto* const small = std::find_if(small_scenes.begin(), small_scenes.end(),
+                                           [name](const SmallScene& candidate) { return candidate.name == name; });
+    scene::Scene scene = small->make();
     scene.name = name;
     scene.options.precision = precision;
     return scene;

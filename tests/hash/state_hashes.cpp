@@ -56,8 +56,8 @@ int main() {
             const std::string name(info.name);
             run(name, carom::scene::workload(name, bodies, precision).scene, steps);
         }
-        for (const std::string_view name : carom::test::small_scene_names) {
-            run(std::string(name), carom::test::small_scene(name, precision), small_steps);
+        for (const carom::test::SmallScene& small : carom::test::small_scenes) {
+            run(std::string(small.name), carom::test::small_scene(small.name, precision), small_steps);
         }
         for (const File& file : files) {
             carom::scene::Overrides overrides;

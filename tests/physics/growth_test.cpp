@@ -1,5 +1,6 @@
 // Bodies whose radii grow: exact times of impact, what growth does to them, and compression to dense packings.
 
+#include "physics/lattice.hpp"
 #include "scene/overlap_search.hpp"
 
 #include <carom/carom.hpp>
@@ -17,6 +18,7 @@ using carom::BodyId;
 using carom::infinite_mass;
 using carom::Vec3;
 using carom::World;
+using carom::test::lattice;
 
 constexpr double g = 9.81;
 
@@ -147,9 +149,10 @@ TEST(Growth, IsRefusedAmongObstacles) {
 
 TEST(Growth, GoesOnAfterASnapshotAndBodiesComeAndGo) {
     World world({.region = carom::Box{{0, 0, 0}, {8, 8, 8}}});
-    for (int k = 0; k < 27; ++k) {
-        world.add({.position = {1.0 + 2.5 * (k % 3), 1.0 + 2.5 * (k / 3 % 3), 1.0 + 2.5 * (k / 9)},
-                   .velocity = {0.3 * (k % 5) - 0.6, 0.2 * (k % 7) - 0.6, 0.4},
+    for (std::size_t k = 0; k < 27; ++k) {
+        const auto number = static_cast<int>(k);
+        world.add({.position = Vec3{1, 1, 1} + lattice(k, 3) * 2.5,
+                   .velocity = {0.3 * (number % 5) - 0.6, 0.2 * (number % 7) - 0.6, 0.4},
                    .growth = k % 2 == 0 ? 0.02 : 0});
     }
     for (int k = 0; k < 100; ++k) world.step(0.02);
@@ -179,7 +182,7 @@ TEST(Growth, CompressesAFluidToADensePacking) {
     std::vector<Vec3> positions;
     std::vector<Vec3> velocities;
     for (int k = 0; k < count; ++k) {
-        positions.push_back({0.5 + k % row, 0.5 + k / row % row, 0.5 + k / row / row});
+        positions.push_back(Vec3{0.5, 0.5, 0.5} + lattice(static_cast<std::size_t>(k), row));
         const double turn = 2.399963 * k;
         const double up = 2 * (k * 0.618034 - std::floor(k * 0.618034)) - 1;
         const double across = std::sqrt(1 - up * up);

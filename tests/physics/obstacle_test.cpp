@@ -1,5 +1,7 @@
 // Obstacles: impacts and contacts with frustums and meshes.
 
+#include "physics/lattice.hpp"
+
 #include <carom/carom.hpp>
 
 #include <gtest/gtest.h>
@@ -26,6 +28,7 @@ using carom::Mesh;
 using carom::Vec3;
 using carom::World;
 using carom::WorldOptions;
+using carom::test::lattice;
 
 constexpr double g = 9.81;
 constexpr double dt = 1.0 / 60;
@@ -315,13 +318,6 @@ void expect_at_rest(const World& world, double weight, const std::string& where)
     EXPECT_LT(length(force_on(world, 0) - Vec3{0, 0, -weight}), 1e-3 * weight) << where;
 }
 
-/// Place k of a cubic lattice, `side` wide and of edge 1, layer by layer.
-Vec3 lattice(std::size_t k, std::size_t side) {
-    const std::size_t y = k / side % side;
-    const std::size_t z = k / (side * side);
-    return {static_cast<double>(k % side), static_cast<double>(y), static_cast<double>(z)};
-}
-
 TEST(Obstacles, BallsComeToRestOnThemAndAreCarried) {
     const auto rest = [](const carom::Obstacle& obstacle, const std::vector<Vec3>& places, const std::string& where) {
         World world({.gravity = {0, 0, -g}, .obstacles = {obstacle}});
@@ -400,12 +396,13 @@ TEST(Obstacles, BodiesRunOutOfAHopper) {
 // The same bits, snapshots, bad input
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Balls fall into a funnel over a terrain, in a box.
-World busy_world(WorldOptions options) {
+/// Balls fall into a funnel over a terrain, in a box. The funnel turns (rad/s).
+World busy_world(WorldOptions options, double turning = 0) {
     options.gravity = {0, 0, -g};
     options.region = carom::Box{{-3, -3, -1}, {3, 3, 6}};
-    options.obstacles = {Frustum{.base = {0, 0, 1.5}, .height = 1.5, .base_radius = 0.3, .top_radius = 2},
-                         terrain(3, 7, [](double x, double y) { return 0.3 * std::sin(2 * x) * std::cos(3 * y); })};
+    options.obstacles = {
+        Frustum{.base = {0, 0, 1.5}, .height = 1.5, .base_radius = 0.3, .top_radius = 2, .angular_velocity = turning},
+        terrain(3, 7, [](double x, double y) { return 0.3 * std::sin(2 * x) * std::cos(3 * y); })};
     World world(options);
     Random random(3);
     for (std::size_t k = 0; k < 120; ++k) {
@@ -420,9 +417,10 @@ World busy_world(WorldOptions options) {
 
 TEST(Obstacles, NoResultDependsOnSolverThreadsOrWindows) {
     for (const carom::Precision precision : {carom::Precision::single_precision, carom::Precision::double_precision}) {
-        World islands = busy_world({.precision = precision, .threads = 1});
-        World serial = busy_world({.precision = precision, .serial_reference = true});
-        World windows = busy_world({.precision = precision, .min_windows = 7, .threads = 3});
+        const double turning = precision == carom::Precision::single_precision ? 0 : 3;
+        World islands = busy_world({.precision = precision, .threads = 1}, turning);
+        World serial = busy_world({.precision = precision, .serial_reference = true}, turning);
+        World windows = busy_world({.precision = precision, .min_windows = 7, .threads = 3}, turning);
         for (int k = 0; k < 240; ++k) {
             for (World* world : {&islands, &serial, &windows}) world->step(dt);
             ASSERT_EQ(islands.hash(), serial.hash()) << "step " << k;
@@ -433,7 +431,7 @@ TEST(Obstacles, NoResultDependsOnSolverThreadsOrWindows) {
 }
 
 TEST(Obstacles, SnapshotsKeepThem) {
-    World world = busy_world({});
+    World world = busy_world({}, 3);
     run(world, 2);
     World again = World::load(world.save());
     EXPECT_EQ(again.options().obstacles.size(), 2U);
@@ -458,6 +456,7 @@ TEST(Obstacles, BadOnesAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Mesh good = floor_of(1, 1);
     const auto with = [](const carom::Obstacle& bad) { return WorldOptions{.obstacles = {Frustum{}, bad}}; };
+    expect_refused(with(Frustum{.angular_velocity = nan}), "obstacles[1].angular_velocity: must be finite, got nan");
     Mesh mesh = good;
     mesh.triangles[1] = {0, 1, 4};
     expect_refused(with(mesh), "obstacles[1].triangles[1]: must be indices of the 4 vertices, got 4");

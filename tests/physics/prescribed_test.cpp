@@ -1,6 +1,8 @@
 // What moves as prescribed, faces and kinematic bodies, takes any momentum, at exact times of impact, and the books
 // tell the work that it does.
 
+#include "physics/lattice.hpp"
+
 #include <carom/carom.hpp>
 
 #include <gtest/gtest.h>
@@ -17,7 +19,7 @@ using carom::BodyId;
 using carom::infinite_mass;
 using carom::Vec3;
 using carom::World;
-using carom::WorldOptions;
+using carom::test::lattice;
 
 constexpr double g = 9.81;
 
@@ -187,7 +189,7 @@ TEST(Piston, CompressesAGasAdiabatically) {
     std::vector<BodyId> ids;
     double phase = 0;
     for (int k = 0; k < row * row * row; ++k) {
-        const Vec3 cell{0.5 + k % row, 0.5 + k / row % row, 0.5 + k / row / row};
+        const Vec3 cell = Vec3{0.5, 0.5, 0.5} + lattice(static_cast<std::size_t>(k), row);
         phase += 2.399963;
         const double up = 2 * ((k * 0.618034) - std::floor(k * 0.618034)) - 1;
         const double across = std::sqrt(1 - up * up);
@@ -313,7 +315,7 @@ TEST(Lift, IsAsARestingWorld) {
         box.faces[5].motion.velocity = -v;
         World world({.gravity = {0, 0, -g}, .region = box});
         for (int k = 0; k < 12; ++k) {
-            const Vec3 place{0.7 + k % 3, 0.7 + k / 3 % 2, 0.7 + k / 6 * 1.5};
+            const Vec3 place = Vec3{0.7, 0.7, 0.7} + lattice(static_cast<std::size_t>(k), 3);
             world.add(
                 {.position = place, .velocity = {0.3 * k - 1, 1 - 0.2 * k, v}, .radius = 0.3, .restitution = 0.95});
         }
@@ -344,7 +346,8 @@ TEST(Lift, CarriesAHeap) {
     box.faces[4].motion.velocity = 0.5;
     World world({.gravity = {0, 0, -g}, .region = box});
     for (int k = 0; k < 27; ++k) {
-        const Vec3 place{0.5 + k % 3, 0.5 + k / 3 % 3, 0.55 + 1.05 * (k / 9)};
+        const Vec3 cell = lattice(static_cast<std::size_t>(k), 3);
+        const Vec3 place{0.5 + cell.x, 0.5 + cell.y, 0.55 + 1.05 * cell.z};
         world.add({.position = place, .radius = 0.49, .restitution = 0.2, .friction = 0.4});
     }
     const double before = balance(world);
@@ -410,7 +413,8 @@ TEST(Face, GoesOnAfterASnapshot) {
     box.faces[0].motion.velocity = 0.125;
     World world({.gravity = {0, 0, -g}, .region = box});
     for (int k = 0; k < 8; ++k) {
-        world.add({.position = {1.5 + 1.2 * (k % 4), 2.0 + 1.2 * (k / 4), 0.7}, .restitution = 0.5, .friction = 0.2});
+        const Vec3 cell = lattice(static_cast<std::size_t>(k), 4);
+        world.add({.position = {1.5 + 1.2 * cell.x, 2 + 1.2 * cell.y, 0.7}, .restitution = 0.5, .friction = 0.2});
     }
     run(world, 1);
     world.set_face_motion(0, {.velocity = -0.0625});

@@ -316,6 +316,12 @@ top_radius = 0
     {R"([[obstacle]]
 kind = "disc"
 radius = 1
+angular_velocity = nan
+)",
+     "s.toml:4: obstacle[0].angular_velocity: must be in [-1e30, 1e30] rad/s", ""},
+    {R"([[obstacle]]
+kind = "disc"
+radius = 1
 hole_radius = 1
 )",
      "s.toml:3: obstacle[0].radius: must be greater than hole_radius", ""},
@@ -324,7 +330,7 @@ kind = "disc"
 radius = 1
 height = 1
 )",
-     "s.toml:4: obstacle[0].height: unknown key", "axis, base, friction, hole_radius, kind, radius, restitution"},
+     "s.toml:4: obstacle[0].height: unknown key", "angular_velocity, axis, base, friction, hole_radius, kind, radius, restitution"},
     {R"([[obstacle]]
 kind = "mesh"
 )",

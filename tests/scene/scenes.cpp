@@ -26,7 +26,7 @@ std::vector<std::string> scene_files() {
 
 TEST(Scenes, AllThatAreNamedInTheDocumentationAreThere) {
     for (const char* name : {"two_bodies", "newtons_cradle", "bouncing_balls", "pi", "gas", "cooling", "rain", "heap",
-                             "tower", "hopper", "avalanche", "asteroids"}) {
+                             "tower", "hopper", "drum", "shaker", "avalanche", "asteroids"}) {
         EXPECT_TRUE(std::filesystem::exists(std::string("scenes/") + name + ".toml")) << name;
     }
 }
