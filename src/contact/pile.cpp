@@ -128,11 +128,13 @@ void Pile<Real>::end_piece(double at) {
     arrive(at);
     measure_walls();
     close_contacts();
+    note_turns();
     book_driven(1);
     pass([&](const ContactRun<Real>& run) { return solver_->solve_hard(run, static_cast<Real>(1 / piece_)); });
     book_driven(-1);
     note_carried();
     come_to_rest();
+    turn_back();
 }
 
 template <class Real>
@@ -271,6 +273,35 @@ void Pile<Real>::leave_facets() {
         carried_[group.a[lane]] = 1;
         close(number, std::numeric_limits<double>::infinity());
     });
+}
+
+/// Notes how far the normals of facets have turned under the bodies in the piece.
+template <class Real>
+void Pile<Real>::note_turns() {
+    clear_for_reuse(turns_);
+    for_each_facet([this](std::uint32_t number) {
+        const ContactName& name = list_.names()[number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::size_t lane = name.lane();
+        if (!(group.impulse[lane] > 0)) return;
+        const Vector way = vector_in(group.apart, lane) - vector_in(group.normal, lane);
+        turns_.push_back({number, way, dot(movers_[group.a[lane]].v, way)});
+    });
+}
+
+/// The hard pass turns impulses all the way with the normals, for the next piece to begin with. But what bears a load
+/// does so where the load came, at the start of the piece; and what takes a body round a bend, from one speed along it
+/// to the same a little further on, points halfway: neither does work.
+template <class Real>
+void Pile<Real>::turn_back() {
+    for (const Turn& turn : turns_) {
+        const ContactName& name = list_.names()[turn.number];
+        const ContactGroup<Real>& group = list_.group_of(name);
+        const std::uint32_t a = group.a[name.lane()];
+        if ((marks_[a] & gone) != 0) continue;
+        const Real all = group.impulse[name.lane()] * movers_[a].inverse_mass;
+        state_.bodies.motion[bodies_[a]].v += turn.way * (all - static_cast<Real>(0.5) * turn.deflection);
+    }
 }
 
 /// Notes whom obstacles carry.

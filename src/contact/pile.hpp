@@ -97,6 +97,12 @@ private:
         std::uint32_t number = 0; ///< in the list
         double gap = 0;           ///< m
     };
+    /// How the normal of a contact with a facet has turned.
+    struct Turn {
+        std::uint32_t number = 0; ///< in the list
+        Vector way{};
+        Real deflection = 0; ///< m/s, what takes the body round the bend changes its velocity by
+    };
     // What is particular about a mover.
     static constexpr std::uint8_t fast = 1; ///< its speed could make a strike
     static constexpr std::uint8_t gone = 2; ///< it was let go
@@ -150,6 +156,8 @@ private:
     }
     void leave_facets();
     void note_carried();
+    void note_turns();
+    void turn_back();
     void close_contacts();
     void close(std::uint32_t number, double gap);
     void reopen_contacts();
@@ -212,6 +220,7 @@ private:
     std::vector<std::uint8_t> carried_;
 
     std::vector<Closed> closed_;
+    std::vector<Turn> turns_;
     std::uint8_t all_marks_ = 0;
 
     // The step.

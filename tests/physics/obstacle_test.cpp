@@ -362,8 +362,8 @@ TEST(Obstacles, FrictionHoldsOnASlopeOfAMesh) {
     }
 }
 
-// On a curved surface the force that a piece begins with is that of the piece before, whose normal is v h / R behind:
-// it brakes by g h / R, with pieces of h = 1/480 s; in 30 s to exp(-g t h / R) = 0.66 of the height.
+// On a curved surface the normal turns by v h / R in a piece of h = 1/480 s. Forces a whole such turn off would brake
+// by g h / R, to 0.66 of the height in 30 s; half a turn off, to 0.81. What is left is a small part of that.
 TEST(Obstacles, ABallSwingsInACylinder) {
     World world({.gravity = {0, 0, -g},
                  .obstacles = {
@@ -378,7 +378,7 @@ TEST(Obstacles, ABallSwingsInACylinder) {
     }
     std::printf("figure: after 30 s of swinging 1 - cos(angle) is %.4f of what it was\n",
                 (highest + 1.5) / (1.5 * (1 - std::cos(0.5))));
-    EXPECT_GT((highest + 1.5) / (1.5 * (1 - std::cos(0.5))), 0.9 * std::exp(-g * 30 / 480 / 1.5));
+    EXPECT_NEAR((highest + 1.5) / (1.5 * (1 - std::cos(0.5))), 1, 0.01);
 }
 
 TEST(Obstacles, BodiesRunOutOfAHopper) {
