@@ -86,8 +86,9 @@ struct PowerLaw {
 
 /// Restitution of viscoelastic spheres: e falls from 1 with x = (3/2) A (rho / m)^(2/5) v^(1/5), where m is the reduced
 /// mass, R the reduced radius (the body's own at a face) and rho = (2/3) `modulus` sqrt(R). The force at an overlap h
-/// is rho h^(3/2) + (3/2) A rho h^(1/2) dh/dt until h is zero again (Brilliantov, Spahn, Hertzsch & Poeschel, Phys. Rev.
-/// E 53, 5382 (1996)); e(x) is the exact solution to 1e-12 up to x = 2, where e is 0.095, and to 2e-7 of itself beyond.
+/// is rho h^(3/2) + (3/2) A rho h^(1/2) dh/dt until h is zero again (Brilliantov, Spahn, Hertzsch & Poeschel, Phys.
+/// Rev. E 53, 5382 (1996)); e(x) is the exact solution to 1e-12 up to x = 2, where e is 0.095, and to 2e-7 of itself
+/// beyond.
 struct Viscoelastic {
     double dissipation = 0; ///< s, >= 0: the material's constant A
     double modulus = 0;     ///< Pa, >= 0: Young's modulus / (1 - Poisson's ratio^2)
@@ -100,8 +101,8 @@ struct Viscoelastic {
 /// the approach speed.
 using RestitutionLaw = std::variant<PowerLaw, Viscoelastic>;
 
-/// A material whose bodies have a law instead of Body::restitution, for each other, for bodies without a law (the larger
-/// e at the approach speed) and for surfaces without an e of their own.
+/// A material whose bodies have a law instead of Body::restitution, for each other, for bodies without a law (the
+/// larger e at the approach speed) and for surfaces without an e of their own.
 struct Material {
     std::uint32_t key = 0; ///< Body::material of its bodies
     RestitutionLaw restitution{};

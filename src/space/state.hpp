@@ -143,9 +143,8 @@ Encounter encounter_of(const State<Real>& state, Index body, const Surface& surf
     if (surface.restitution) return plain_encounter(*surface.restitution, mu);
     if (state.laws.materials.empty()) return plain_encounter(static_cast<double>(bodies.restitution[body]), mu);
     const Yielder alone{static_cast<double>(bodies.mass[body]), static_cast<double>(bodies.motion[body].radius)};
-    return encounter_by_speed(state.laws, approach, mu, [&](double speed) {
-        return restitution_of(state.laws, bodies, body, alone, speed);
-    });
+    return encounter_by_speed(state.laws, approach, mu,
+                              [&](double speed) { return restitution_of(state.laws, bodies, body, alone, speed); });
 }
 
 /// What accelerates a body between impacts, m/s^2.
