@@ -29,8 +29,8 @@ inline constexpr std::array<std::string_view, std::variant_size_v<Observer>> obs
 /// An observer, and when it looks.
 struct Observation {
     std::string name;
-    double from = 0;          ///< s of the world's time; earlier steps are not observed
-    std::uint64_t every = 20; ///< steps from sample to sample; impacts are observed in each step
+    double from = 0;         ///< s of the world's time; earlier steps are not observed
+    std::uint64_t every = 1; ///< steps from sample to sample; impacts are observed in each step
     Observer observer;
     std::uint64_t samples = 0; ///< seen so far
 };

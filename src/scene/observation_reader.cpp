@@ -14,8 +14,8 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
 /// Steps from sample to sample where the scene does not say it: nearer ones tell little new, and pairs of bodies cost
 /// more.
-constexpr std::uint64_t usual_interval = 20;
-constexpr std::uint64_t usual_interval_of_pairs = 100;
+constexpr std::uint64_t usual_interval = 50;
+constexpr std::uint64_t usual_interval_of_pairs = 200;
 
 double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 

@@ -19,9 +19,9 @@ using carom::Vec3;
 using carom::World;
 using carom::WorldOptions;
 
-constexpr PowerLaw falling{.restitution = 0.5, .speed = 1, .exponent = 0.25};
+constexpr PowerLaw falling{.restitution = 0.5, .speed = 1, .exponent = 0.1};
 
-double by_power(double v) { return std::min(1.0, 0.5 * std::pow(v, -0.25)); }
+double by_power(double v) { return std::min(1.0, 0.5 * std::pow(v, -0.1)); }
 
 WorldOptions with_law(const RestitutionLaw& law) { return {.materials = {{.key = 1, .restitution = law}}}; }
 
@@ -82,14 +82,14 @@ TEST(RestitutionLaws, WhatRestsIsLeftToTheLimitAtTheSpeedOfAFall) {
     World world(options);
     const BodyId ball = world.add({.position = {0, 0, 1}, .radius = 0.1, .restitution = 1, .material = 1});
     double last = 0;
-    double next = 0;
     for (int i = 0; i < 600 && !world.held(ball); ++i) {
         world.step(1.0 / 60);
         for (const carom::Impact& impact : world.impacts()) {
             // Bounces from heights follow the law, and the last one is below the limit.
-            if (last > 0) EXPECT_NEAR(impact.approach_speed / last, by_power(last), 1e-6);
-            next = impact.approach_speed;
-            last = next;
+            if (last > 0) {
+                EXPECT_NEAR(impact.approach_speed / last, by_power(last), 1e-6);
+            }
+            last = impact.approach_speed;
         }
     }
     ASSERT_TRUE(world.held(ball));
@@ -99,7 +99,7 @@ TEST(RestitutionLaws, WhatRestsIsLeftToTheLimitAtTheSpeedOfAFall) {
 }
 
 TEST(RestitutionLaws, PilesOfThemComeToRest) {
-    WorldOptions options = with_law(carom::Viscoelastic{.dissipation = 0.01, .modulus = 1e4});
+    WorldOptions options = with_law(carom::Viscoelastic{.dissipation = 0.03, .modulus = 1e4});
     options.gravity = {0, 0, -9.81};
     options.region = carom::Box{{0, 0, 0}, {1, 1, 4}};
     World world(options);

@@ -143,7 +143,7 @@ TEST_F(Observations, OneSampleHasNoError) {
     const Scene scene = parse_scene(gas(27, 8, ""), "s.toml");
     std::vector<Observation> observations = scene.observations;
     World world = make_world(scene);
-    for (std::uint64_t step = 1; step <= 30; ++step) {
+    for (std::uint64_t step = 1; step <= 60; ++step) {
         world.step(scene.run.dt);
         observe(observations, world, step);
     }
@@ -157,8 +157,8 @@ TEST_F(Observations, OneSampleHasNoError) {
 TEST_F(Observations, LookAsOftenAsTheSceneSays) {
     const Scene scene = parse_scene(gas(27, 8, ""), "s.toml");
     ASSERT_EQ(scene.observations.size(), 8U);
-    EXPECT_EQ(scene.observations[0].every, 20U);
-    EXPECT_EQ(scene.observations[4].every, 100U);
+    EXPECT_EQ(scene.observations[0].every, 50U);
+    EXPECT_EQ(scene.observations[4].every, 200U);
     EXPECT_EQ(scene.observations[6].name, "slab");
     EXPECT_TRUE(scene.options.record_impacts);
     EXPECT_FALSE(scene.outputs.record_impacts);
