@@ -125,7 +125,7 @@ Findings run(const Pour& pour) {
     Findings findings;
     findings.rows = {
         exact_row({"packing of poured spheres", setup + "; 3 diameters or more from floor and surface",
-                   "random close packing of spheres without friction: 0.63 to 0.645, shared/VALIDATION.md 9"},
+                   "random close packing of spheres without friction: 0.63 to 0.645"},
                   (loose + dense) / 2, settled.packing, (dense - loose) / 2),
         // Overlaps of 2e-4 diameters make contacts (O'Hern et al., Phys. Rev. E 68, 011306 (2003): z - 6 grows with
         // 8 sqrt(packing above jamming), here 0.2); spheres on the floor and at the surface lack some.

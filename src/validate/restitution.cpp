@@ -62,11 +62,11 @@ Findings run_viscoelastic() {
     Findings findings;
     Curve reference{"restitution", "viscoelastic", Mark::points, {{0, 1}}};
     for (const Solved& s : solved) {
-        findings.rows.push_back(exact_row({"restitution of viscoelastic spheres",
-                                           fmt::format("two spheres meet at {:.3g} m/s: x = {}", speed_of(s.x), s.x),
-                                           "equation of motion until the overlap is zero, solved independently to nine "
-                                           "digits, shared/VALIDATION.md 10"},
-                                          s.e, measured(elastomer, speed_of(s.x)), 1e-9));
+        findings.rows.push_back(
+            exact_row({"restitution of viscoelastic spheres",
+                       fmt::format("two spheres meet at {:.3g} m/s: x = {}", speed_of(s.x), s.x),
+                       "equation of motion until the overlap is zero, solved independently to nine digits"},
+                      s.e, measured(elastomer, speed_of(s.x)), 1e-9));
         reference.points.push_back({s.x, s.e});
     }
     Curve carom{"restitution", "viscoelastic", Mark::line, {{0, 1}}};
