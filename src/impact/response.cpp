@@ -126,6 +126,18 @@ bool rests(const State<Real>& state, Index body, const Support& support, const V
     return comes_to_rest(e, felt, pressure.acceleration, state.laws.rest_time);
 }
 
+/// A body comes to rest against a support: on an obstacle it is piled, against anything else held.
+template <class Real>
+void lie_on(State<Real>& state, Index body, const Support& support, Occurrence& occurrence) {
+    if (is_obstacle(state, support)) {
+        pile_up(state.bodies, body);
+        occurrence.piles_up = true;
+    } else {
+        const double remaining = state.laws.kick_interval - occurrence.impact.offset;
+        hold_against(state, body, support, remaining, occurrence.entry);
+    }
+}
+
 /// A body, already at its time, against something whose motion is prescribed: a face, a static or a kinematic body. An
 /// approach that is mere rounding is no impact: the body only finds one more support, beside those it may have.
 template <class Real>
@@ -179,14 +191,10 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         write_down(response, occurrence);
         occurrence.is_impact = !only_stops;
     }
-    const double remaining = state.laws.kick_interval - time;
-    if (come_to_rest && leans) {
-        pile_up(state.bodies, body);
-        occurrence.piles_up = true;
-    } else if (come_to_rest) {
-        hold_against(state, body, support, remaining, occurrence.entry);
+    if (come_to_rest) {
+        lie_on(state, body, support, occurrence);
     } else if (stays) {
-        refresh_hold(state, body, remaining, occurrence.entry);
+        refresh_hold(state, body, state.laws.kick_interval - time, occurrence.entry);
     }
 }
 
