@@ -87,7 +87,7 @@ struct PowerLaw {
 /// Restitution of viscoelastic spheres: e falls from 1 with x = (3/2) A (rho / m)^(2/5) v^(1/5), where m is the reduced
 /// mass, R the reduced radius (the body's own at a face) and rho = (2/3) `modulus` sqrt(R). The force at an overlap h
 /// is rho h^(3/2) + (3/2) A rho h^(1/2) dh/dt until h is zero again (Brilliantov, Spahn, Hertzsch & Poeschel, Phys.
-/// Rev. E 53, 5382 (1996)); e(x) is the exact solution to 1e-12 up to x = 2, where e is 0.095, and to 2e-7 of itself
+/// Rev. E 53, 5382 (1996)); e(x) is the exact solution to 1e-12 up to x = 2, where e is 0.095, and to 2e-8 of itself
 /// beyond.
 struct Viscoelastic {
     double dissipation = 0; ///< s, >= 0: the material's constant A
