@@ -17,6 +17,7 @@ using carom::BodyId;
 using carom::infinite_mass;
 using carom::Vec3;
 using carom::World;
+using carom::WorldOptions;
 
 constexpr double g = 9.81;
 
