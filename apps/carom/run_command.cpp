@@ -82,9 +82,12 @@ Ending run_to_its_end(Simulation& simulation, const OutputFolder& folder, double
         return {failure, fmt::format("step {} failed: {}", simulation.steps() + 1, error.what())};
     }
     if (simulation.finished()) return {};
-    return {128 + interrupted_by(),
-            fmt::format("interrupted after {} of {} steps; go on with --resume {}", simulation.steps(),
-                        simulation.schedule().steps, folder.file("checkpoint.carom").string())};
+    std::string message =
+        fmt::format("interrupted after {} of {} steps", simulation.steps(), simulation.schedule().steps);
+    if (simulation.observations().empty()) {
+        message += fmt::format("; go on with --resume {}", folder.file("checkpoint.carom").string());
+    }
+    return {128 + interrupted_by(), std::move(message)};
 }
 
 nlohmann::ordered_json to_json(const scene::Scene& scene, const Simulation& simulation, const scene::Summary& summary) {
@@ -122,6 +125,8 @@ void write_results(const scene::Scene& scene, const Simulation& simulation, cons
              [&] { return scene::energy_plot(rows, scene.title, subtitle(summary)); });
     write_if(scene.outputs.record_impacts, folder.file("impacts.csv"),
              [&] { return std::string(scene::impact_log_header()) + simulation.impact_log(); });
+    write_if(!simulation.observations().empty(), folder.file("observations.csv"),
+             [&] { return scene::to_csv(simulation.observations()); });
     scene::write_file(folder.file("summary.json"), scene::file_text(to_json(scene, simulation, summary)));
 }
 

@@ -53,7 +53,7 @@ bool interval_ends(std::uint64_t step, double dt, double every) {
 
 Simulation::Simulation(const scene::Scene& scene)
     : scene_(scene), schedule_(schedule_of(scene.run)), memory_before_(resident_bytes()),
-      world_(scene::make_world(scene)), identity_(identity_of(world_, scene)) {
+      world_(scene::make_world(scene)), identity_(identity_of(world_, scene)), observations_(scene.observations) {
     release_freed_memory();
     progress_.start = scene::read_books(world_);
     progress_.rows.push_back(scene::timeline_row(world_, 0));
@@ -61,6 +61,11 @@ Simulation::Simulation(const scene::Scene& scene)
 }
 
 void Simulation::resume(const std::filesystem::path& file) {
+    if (!observations_.empty()) {
+        throw UsageError(fmt::format("--resume {}: the scene has observers, and what they have seen is in no "
+                                     "checkpoint: run it from its start",
+                                     file.string()));
+    }
     try {
         scene::Checkpoint saved = scene::load_checkpoint(scene::read_file(file));
         if (const auto reason = scene::difference(saved.identity, identity_)) {
@@ -88,6 +93,7 @@ void Simulation::advance() {
     const double length = step < schedule_.steps ? schedule_.dt : schedule_.last;
     timed_step(world_, length, totals_);
     if (scene_.outputs.record_impacts) scene::append_impacts(progress_.impact_log, step, world_.impacts());
+    scene::observe(observations_, world_, step);
     progress_.steps = step;
     progress_.last_step_short = length < schedule_.dt;
     progress_.contacts = world_.report().contacts;

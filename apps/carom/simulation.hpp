@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ public:
     /// The rows that were due, and one for now.
     [[nodiscard]] std::vector<scene::TimelineRow> timeline() const;
     [[nodiscard]] const std::string& impact_log() const { return progress_.impact_log; }
+    /// What the scene's observers have seen.
+    [[nodiscard]] std::span<const scene::Observation> observations() const { return observations_; }
     void use_threads(unsigned threads) { world_.set_threads(threads); }
     [[nodiscard]] scene::Summary summary(unsigned threads);
     /// Steps that were done before this process went on from a checkpoint.
@@ -68,6 +71,7 @@ private:
     World world_;
     scene::RunIdentity identity_;
     scene::RunProgress progress_;
+    std::vector<scene::Observation> observations_;
     std::optional<scene::OverlapSearch> overlap_search_;
     StepTotals totals_; ///< of this process
     std::uint64_t resumed_from_ = 0;

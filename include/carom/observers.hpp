@@ -103,11 +103,16 @@ public:
     /// kinetic energy at the end of every 8th step and V the volume of the box. Error{not_available} naming `region`
     /// where the world is not bounded by a box.
     [[nodiscard]] Estimate pressure() const;
-    /// N, the mean force on a face of the region by the momentum that bodies leave there (`face` as in Impact::face).
+    /// Whether a pressure can be said: the world is bounded by a box.
+    [[nodiscard]] bool has_volume() const noexcept { return volume_.has_value(); }
+    /// N, the mean force on a face of the region or an obstacle by the momentum that bodies leave there in impacts
+    /// (`face` as in Impact::face).
     [[nodiscard]] Estimate face_force(std::size_t face) const;
+    /// Faces of the region and obstacles.
+    [[nodiscard]] std::size_t faces() const noexcept { return face_force_.size(); }
     /// s observed.
     [[nodiscard]] double duration() const noexcept { return duration_; }
-    /// ImpactStatistics between bodies that were observed.
+    /// Impacts between bodies that were observed.
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
 
 private:

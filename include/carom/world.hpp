@@ -49,6 +49,7 @@ struct WorldOptions {
     /// m; positions of the API are relative to this point. A multiple of the resolution.
     std::array<std::int64_t, 3> origin{};
     Drag drag{};
+    std::vector<Material> materials{}; ///< those whose restitution is a law; each key once
     std::vector<MaterialRule> material_rules{};
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;

@@ -296,11 +296,11 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
     Encounter encounter;
     double inverse = 1 / static_cast<double>(bodies.mass[body]);
     if (name.is_wall()) {
-        encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()));
+        encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()), 0);
         at_walls_.push_back(number);
     } else {
         const Index other = bodies.slots[found.code];
-        encounter = encounter_of(state_, body, other);
+        encounter = encounter_of(state_, body, other, 0);
         inverse += 1 / static_cast<double>(bodies.mass[other]);
         const Int3 x = found.b == nobody ? bodies.motion[other].x : bodies.listed[found.b].x;
         const Int3 difference = nearest_image(state_.bounds, state_.resolution, x - bodies.listed[found.a].x, {});
@@ -308,11 +308,11 @@ void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
         put_into(group.apart, lane, apart);
         open(name, bodies.motion[body].t);
     }
-    name.restitution = encounter.restitution;
+    name.restitution = encounter.resting_restitution;
     group.mass[lane] = static_cast<Real>(1 / inverse);
     group.friction[lane] = static_cast<Real>(encounter.friction);
     rubs_ = rubs_ || encounter.friction != 0;
-    largest_restitution_ = std::max(largest_restitution_, encounter.restitution);
+    largest_restitution_ = std::max(largest_restitution_, name.restitution);
 }
 
 template <class Real>

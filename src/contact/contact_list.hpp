@@ -22,8 +22,8 @@ struct ContactName {
     std::uint32_t slot = 0;  ///< of a leaner; of two, the lower one
     std::uint32_t code = 0;  ///< as in ContactForce
     std::uint32_t place = 0; ///< its lane, counted over all groups
-    double restitution = 0;
-    bool is_driven = false; ///< with what moves as prescribed, or of a body that grows with what does not move
+    double restitution = 0;  ///< what the rest rule takes
+    bool is_driven = false;  ///< with what moves as prescribed, or of a body that grows with what does not move
 
     [[nodiscard]] bool is_wall() const { return (code & Support::wall_bit) != 0; }
     [[nodiscard]] std::uint32_t wall() const { return code & ~Support::wall_bit; }

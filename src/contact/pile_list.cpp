@@ -16,7 +16,7 @@ void Pile<Real>::start_list(double from) {
         settle_accounts();
         has_values_ = false;
         gather();
-        if (bodies.listed.empty()) return;
+        if (bodies.listed.empty()) return list_.clear();
         for_each_leaner([&](Findings&, std::size_t k) {
             advance_leaner(k, from);
             bodies.listed[k].x = bodies.motion[bodies_[k]].x;

@@ -57,11 +57,11 @@ Support derived(const State<Real>& state, Index body, const Support& support) {
     Support now;
     if (support.is_wall()) {
         now = support_by_wall(state, support.wall(), normal, m, 0);
-        now.friction = encounter_of(state, body, state.bounds.surface(support.wall())).friction;
+        now.friction = encounter_of(state, body, state.bounds.surface(support.wall()), 0).friction;
     } else {
         const Index fixed = state.bodies.slots[support.code];
         now = support_by_body(support.code, normal, m, state.bodies.motion[fixed], 0);
-        now.friction = encounter_of(state, body, fixed).friction;
+        now.friction = encounter_of(state, body, fixed, 0).friction;
     }
     return now;
 }

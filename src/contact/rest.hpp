@@ -88,7 +88,7 @@ bool may_lie_on_obstacle(const State<Real>& state, const Support& support, doubl
 /// m/s, the approach above which a piled body strikes a wall or facet.
 template <class Real>
 double striking_speed_at(const State<Real>& state, Index body, std::uint32_t wall) {
-    const double e = encounter_of(state, body, state.bounds.surface(wall)).restitution;
+    const double e = encounter_of(state, body, state.bounds.surface(wall), 0).resting_restitution;
     return striking_speed(e, load_on(state.bodies, body), state.laws);
 }
 

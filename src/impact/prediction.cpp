@@ -159,11 +159,11 @@ bool is_in_pile(const Path<Real>& a, const Path<Real>& b) {
 /// Two bodies of a pile, which move straight: only what is faster than a contact allows is an impact.
 template <class Real>
 double predict_in_pile(const State<Real>& state, const Path<Real>& a, const Path<Real>& b, double now, double until) {
-    const Encounter encounter = encounter_of(state.laws, *a.bodies, a.index, *b.bodies, b.index);
+    const Encounter encounter = encounter_of(state.laws, *a.bodies, a.index, *b.bodies, b.index, 0);
     double load = std::numeric_limits<double>::infinity();
     if (a.kind == Kind::piled) load = load_on(*a.bodies, a.index);
     if (b.kind == Kind::piled) load = std::min(load, load_on(*b.bodies, b.index));
-    const double strike = striking_speed(encounter.restitution, load, state.laws);
+    const double strike = striking_speed(encounter.resting_restitution, load, state.laws);
     const double growth = growth_of(a, b);
     const double slow = strike - growth;
     if (growth <= strike && length_squared(velocity_of(*a.motion) - velocity_of(*b.motion)) <= slow * slow)
@@ -233,7 +233,7 @@ double predict_facet(const State<Real>& state, Index body, std::uint32_t wall) {
     if (!touches || std::abs(dot(v - u, touch.normal)) > approach_rounding<Real>(v, u, touch.normal)) return m.t + time;
     // An approach that is mere rounding is none. Whatever presses the body comes to lie; what may not do that strikes
     // as soon as it is a little deeper.
-    const double e = encounter_of(state, body, state.bounds.surface(wall)).restitution;
+    const double e = encounter_of(state, body, state.bounds.surface(wall), 0).resting_restitution;
     const Support support = support_by_facet(state, wall, touch, m, {}, v);
     if (may_lie_on_obstacle(state, support, radius, v, e)) {
         const double pressing = pressure_on(state, m, state.bodies.slot[body], support, v).acceleration;

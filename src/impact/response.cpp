@@ -104,6 +104,9 @@ Pressure pressure_here(const State<Real>& state, Index body, const Support& supp
     return pressure;
 }
 
+/// m/s, of a body with velocity v.
+double approach_to(const Support& support, const Vec3& v) { return dot(v - support.velocity, support.normal); }
+
 template <class Real>
 bool is_obstacle(const State<Real>& state, const Support& support) {
     return support.is_wall() && state.bounds.is_facet(support.wall());
@@ -155,7 +158,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     const double time = occurrence.impact.offset;
     const Vec3 v = velocity_of(state.bodies.motion[body]);
     const Vec3 relative = v - support.velocity;
-    const double approach = dot(relative, support.normal);
+    const double approach = approach_to(support, v);
     const double rounding = approach_rounding<Real>(v, support.velocity, support.normal);
     bool stays = false;
     const bool leans = is_obstacle(state, support);
@@ -165,10 +168,11 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     if (only_stops) encounter.restitution = 0;
     const auto radius = static_cast<double>(state.bodies.motion[body].radius);
     const bool may_rest =
-        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.restitution));
+        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.resting_restitution));
     // What turns stays where it is: what presses a body on there is its own way along it.
     const Vec3 along = leans ? v : relative;
-    bool come_to_rest = may_rest && rests(state, body, support, approach, along, rounding, encounter.restitution);
+    bool come_to_rest =
+        may_rest && rests(state, body, support, approach, along, rounding, encounter.resting_restitution);
     if (come_to_rest && support.is_driven) {
         lie_down(state, body, support, occurrence);
         return;
@@ -179,7 +183,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         haste.lasts = haste.lasts && !(pressure_here(state, body, support, along).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
-        const bool squeezed = haste.jams || (haste.stands && encounter.restitution < 1);
+        const bool squeezed = haste.jams || (haste.stands && encounter.resting_restitution < 1);
         occurrence.is_crushed = haste.jams && support.is_driven;
         come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
                                         pressure_here(state, body, support, along).acceleration >= 0);
@@ -224,7 +228,6 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const Vec3 a = acceleration_of(state, event.a);
     const double duration = event.time - m.t;
     const Vec3 d = displacement(velocity_of(m), a, duration);
-    const Encounter encounter = encounter_of(state, event.a, state.bounds.surface(wall));
     const Touch touch =
         state.bounds.impact(wall, m.x, d, radius_at(state.bodies, event.a, event.time), event.time, state.resolution);
     const bool at_facet = state.bounds.is_facet(wall);
@@ -236,6 +239,8 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     } else {
         support = support_by_wall(state, wall, touch.normal, m, growth_of(state.bodies, event.a));
     }
+    const Encounter encounter =
+        encounter_of(state, event.a, state.bounds.surface(wall), approach_to(support, velocity_of(m)));
     support.friction = encounter.friction;
     occurrence.impact = {.offset = event.time,
                          .a = state.bodies.slot[event.a],
@@ -386,20 +391,20 @@ bool come_to_lean(const State<Real>& state, Index a, Index b, const Meeting& mee
 template <class Real>
 void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, const Vec3& pull, Occurrence& occurrence) {
     const ImpactRecord& impact = occurrence.impact;
-    Encounter encounter = encounter_of(state, a, b);
-    if (come_to_lean(state, a, b, meeting, impact.normal, encounter.restitution)) {
-        pile_up(state.bodies, a);
-        pile_up(state.bodies, b);
-        occurrence.piles_up = true;
-        return;
-    }
-    for (const Index body : {a, b}) occurrence.piles_up = wake(state.bodies, body) || occurrence.piles_up;
     // What grows drives the surfaces on: Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990).
     const double growth = growth_of(state.bodies, a) + growth_of(state.bodies, b);
     const Vec3 own_growth = impact.normal * growth;
     Vec3 v_a = meeting.v_a + own_growth;
     Vec3 v_b = meeting.v_b;
     const double approach = dot(v_a - v_b, impact.normal);
+    Encounter encounter = encounter_of(state, a, b, approach);
+    if (come_to_lean(state, a, b, meeting, impact.normal, encounter.resting_restitution)) {
+        pile_up(state.bodies, a);
+        pile_up(state.bodies, b);
+        occurrence.piles_up = true;
+        return;
+    }
+    for (const Index body : {a, b}) occurrence.piles_up = wake(state.bodies, body) || occurrence.piles_up;
     const Haste haste_a = count_impact(state, a, impact.offset, approach, false);
     const Haste haste_b = count_impact(state, b, impact.offset, approach, false);
     Haste haste{.lasts = haste_a.lasts || haste_b.lasts,
@@ -434,9 +439,10 @@ template <class Real>
 void meet_static(State<Real>& state, Index body, Index fixed, const Vec3& n, Occurrence& occurrence) {
     const Bodies<Real>& bodies = state.bodies;
     occurrence.piles_up = wake(state.bodies, body);
-    const Encounter encounter = encounter_of(state, body, fixed);
     const double growth = growth_of(bodies, body) + growth_of(bodies, fixed);
     Support support = support_by_body(bodies.slot[fixed], n, bodies.motion[body], bodies.motion[fixed], growth);
+    const Encounter encounter =
+        encounter_of(state, body, fixed, approach_to(support, velocity_of(bodies.motion[body])));
     support.friction = encounter.friction;
     meet_support(state, body, support, encounter, occurrence);
 }

@@ -54,7 +54,7 @@ ImpactStatistics::ImpactStatistics(const World& world) {
     bodies_ = static_cast<double>(std::count_if(mass.begin(), mass.end(), [](double m) { return m < infinite_mass; }));
     const Region region = world.region();
     if (const auto* box = std::get_if<Box>(&region)) volume_ = volume_of(*box);
-    face_force_.resize(faces_of(region));
+    face_force_.resize(faces_of(region) + world.options().obstacles.size());
     impulse_.resize(face_force_.size());
 }
 

@@ -32,6 +32,7 @@ struct Material {
     std::string name;
     double restitution = 1;
     double friction = 0;
+    std::optional<RestitutionLaw> law{}; ///< instead of `restitution`
 };
 
 /// An attractor and what other entries call it.

@@ -53,6 +53,10 @@ void read_surfaces(Entry& entry, const std::vector<Material>& materials) {
         bodies.material.assign(entry.count, static_cast<std::uint32_t>(number + 1));
         if (!entry.is_in_csv("restitution")) bodies.restitution.assign(entry.count, materials[number].restitution);
         if (!entry.is_in_csv("friction")) bodies.friction.assign(entry.count, materials[number].friction);
+        const bool has_own = entry.table.has("restitution") || entry.is_in_csv("restitution");
+        if (has_own && materials[number].law) {
+            value->fail("has a law of restitution: its bodies must have no restitution of their own");
+        }
     }
     if (const auto value = entry.find_unless_in_csv("restitution", "restitution")) {
         read_numbers(entry, *value, zero_to_one, bodies.restitution);

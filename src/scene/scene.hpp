@@ -3,6 +3,7 @@
 /// workload, and a world is made from it.
 #pragma once
 
+#include "scene/observation.hpp"
 #include "scene/scene_error.hpp"
 #include "scene/view.hpp"
 
@@ -87,6 +88,7 @@ struct Scene {
     Overlap overlap = Overlap::refuse;
     RunSettings run;
     OutputSettings outputs;
+    std::vector<Observation> observations; ///< none has seen anything
     ViewSettings view;
     std::uint64_t seed = 1;
 

@@ -1,7 +1,9 @@
 #include "scene/bodies_reader.hpp"
+#include "scene/observation_reader.hpp"
 #include "scene/obstacle_reader.hpp"
 #include "scene/reader.hpp"
 #include "scene/region_reader.hpp"
+#include "scene/restitution_reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/text_file.hpp"
 #include "scene/view_reader.hpp"
@@ -115,12 +117,21 @@ std::vector<Material> read_materials(TableReader& top) {
         for (const Material& other : materials) {
             if (other.name == material.name) name.fail("is the name of an earlier material");
         }
-        table.read("restitution", material.restitution, zero_to_one);
+        if (const auto value = table.find("restitution")) {
+            material.law = read_law(*value);
+            if (!material.law) material.restitution = value->number(zero_to_one);
+        }
         table.read("friction", material.friction, not_negative);
         table.finish();
         materials.push_back(std::move(material));
     }
     return materials;
+}
+
+void add_laws(const std::vector<Material>& materials, Scene& scene) {
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (materials[i].law) scene.options.materials.push_back({static_cast<std::uint32_t>(i + 1), *materials[i].law});
+    }
 }
 
 void read_material_rules(TableReader& top, const std::vector<Material>& materials, Scene& scene) {
@@ -132,7 +143,9 @@ void read_material_rules(TableReader& top, const std::vector<Material>& material
         MaterialRule rule;
         rule.a = static_cast<std::uint32_t>(pair[0].choice(names) + 1);
         rule.b = static_cast<std::uint32_t>(pair[1].choice(names) + 1);
-        rule.restitution = table.need("restitution").number(zero_to_one);
+        const ValueReader restitution = table.need("restitution");
+        rule.law = read_law(restitution);
+        if (!rule.law) rule.restitution = restitution.number(zero_to_one);
         table.read("friction", rule.friction, not_negative);
         table.finish();
         scene.options.material_rules.push_back(rule);
@@ -225,8 +238,10 @@ Scene read_scene(TableReader& top, const std::filesystem::path& file, const Over
     scene.view = read_view(top);
     scene.options.record_impacts = scene.outputs.record_impacts;
     const std::vector<Material> materials = read_materials(top);
+    add_laws(materials, scene);
     read_material_rules(top, materials, scene);
     read_bodies(top, materials, overrides.max_bodies, scene);
+    read_observations(top, scene);
     top.finish();
     return scene;
 }

@@ -12,6 +12,19 @@ std::string shown(double value) {
     return std::string(text.data(), end);
 }
 
+void check_law(const RestitutionLaw& law, const std::string& field, std::size_t index) {
+    if (const auto* power = std::get_if<PowerLaw>(&law)) {
+        check_positive(power->restitution, field + ".restitution", index);
+        check_fraction(power->restitution, field + ".restitution", index);
+        check_positive(power->speed, field + ".speed", index);
+        check_not_negative(power->exponent, field + ".exponent", index);
+    } else {
+        const auto& viscoelastic = std::get<Viscoelastic>(law);
+        check_not_negative(viscoelastic.dissipation, field + ".dissipation", index);
+        check_not_negative(viscoelastic.modulus, field + ".modulus", index);
+    }
+}
+
 std::string remedy_for(double metres) {
     if (!(metres < std::ldexp(static_cast<double>(world_edge), largest_resolution_exponent))) {
         return "no resolution reaches that far";

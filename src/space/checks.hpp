@@ -5,6 +5,7 @@
 #include "space/motion.hpp"
 
 #include <carom/base.hpp>
+#include <carom/body.hpp>
 
 #include <cmath>
 #include <string>
@@ -40,6 +41,8 @@ inline void check_fraction(double value, const std::string& field, std::size_t i
         throw Error(ErrorCode::out_of_range, field, "must lie in [0, 1], got " + shown(value), index);
     }
 }
+
+void check_law(const RestitutionLaw& law, const std::string& field, std::size_t index);
 
 /// A position of the API (m, relative to `origin`) in units. Throws Error{out_of_world} naming the resolution that
 /// would do.

@@ -2,6 +2,7 @@
 /// Everything that a step reads and writes: the bodies, what surrounds them, and the books.
 #pragma once
 
+#include "collision/restitution.hpp"
 #include "space/bodies.hpp"
 #include "space/bounds.hpp"
 #include "space/sum.hpp"
@@ -30,6 +31,7 @@ struct Laws {
     double collapse_time = 0; ///< s, how long an impact is remembered
     bool sleeping = true;     ///< islands that lie still fall asleep
     double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
+    std::vector<Material> materials{};
     std::vector<MaterialRule> rules{};
     std::vector<PointField> fields{};
 };
@@ -72,34 +74,77 @@ struct State {
 
 /// e and mu of an encounter.
 struct Encounter {
-    double restitution = 0;
-    double friction = 0;
+    double restitution = 0;         ///< at the speed of the approach
+    double friction = 0;            ///< mu
+    double resting_restitution = 0; ///< what the rest rule takes
 };
 
-/// How two bodies, of one list or of two, meet: the larger e, the geometric mean of mu, unless a rule says otherwise.
+/// An encounter with one e for all speeds.
+inline Encounter plain_encounter(double e, double mu) { return {e, mu, e}; }
+
+/// An encounter with e by speed (m/s), at `approach`. The rest rule takes e at the speed that gravity gives in the rest
+/// time, so that the limit between a contact and an impact does not depend on the approach; without it there are no
+/// piles, and e at the approach speed will do.
+template <class RestitutionAt>
+Encounter encounter_by_speed(const Laws& laws, double approach, double mu, const RestitutionAt& restitution_at) {
+    const double e = restitution_at(approach);
+    const double fallen = length(laws.gravity) * laws.rest_time;
+    return {e, mu, fallen > 0 ? restitution_at(fallen) : e};
+}
+
+/// e of a body that meets something: by the law of its material where that has one.
 template <class Real>
-Encounter encounter_of(const Laws& laws, const Bodies<Real>& of_a, Index a, const Bodies<Real>& of_b, Index b) {
+double restitution_of(const Laws& laws, const Bodies<Real>& bodies, Index i, const Yielder& yielder, double speed) {
+    for (const Material& material : laws.materials) {
+        if (material.key == bodies.material[i]) return restitution_by(material.restitution, yielder, speed);
+    }
+    return static_cast<double>(bodies.restitution[i]);
+}
+
+/// How two bodies, of one list or of two, meet at an approach speed (m/s): the larger e, the geometric mean of mu,
+/// unless a rule says otherwise.
+template <class Real>
+Encounter encounter_of(const Laws& laws, const Bodies<Real>& of_a, Index a, const Bodies<Real>& of_b, Index b,
+                       double approach) {
+    const auto yielder = [&] {
+        return reduced({static_cast<double>(of_a.mass[a]), static_cast<double>(of_a.motion[a].radius)},
+                       {static_cast<double>(of_b.mass[b]), static_cast<double>(of_b.motion[b].radius)});
+    };
     for (const MaterialRule& rule : laws.rules) {
         const bool straight = rule.a == of_a.material[a] && rule.b == of_b.material[b];
         const bool crossed = rule.a == of_b.material[b] && rule.b == of_a.material[a];
-        if (straight || crossed) return {rule.restitution, rule.friction};
+        if (!straight && !crossed) continue;
+        if (!rule.law) return plain_encounter(rule.restitution, rule.friction);
+        return encounter_by_speed(laws, approach, rule.friction, [&, pair = yielder()](double speed) {
+            return restitution_by(*rule.law, pair, speed);
+        });
     }
     const auto mu_a = static_cast<double>(of_a.friction[a]);
     const auto mu_b = static_cast<double>(of_b.friction[b]);
-    return {static_cast<double>(std::max(of_a.restitution[a], of_b.restitution[b])), std::sqrt(mu_a * mu_b)};
+    const double mu = std::sqrt(mu_a * mu_b);
+    if (laws.materials.empty())
+        return plain_encounter(static_cast<double>(std::max(of_a.restitution[a], of_b.restitution[b])), mu);
+    return encounter_by_speed(laws, approach, mu, [&, pair = yielder()](double speed) {
+        return std::max(restitution_of(laws, of_a, a, pair, speed), restitution_of(laws, of_b, b, pair, speed));
+    });
 }
 
 template <class Real>
-Encounter encounter_of(const State<Real>& state, Index a, Index b) {
-    return encounter_of(state.laws, state.bodies, a, state.bodies, b);
+Encounter encounter_of(const State<Real>& state, Index a, Index b, double approach) {
+    return encounter_of(state.laws, state.bodies, a, state.bodies, b, approach);
 }
 
-/// How a body meets a face or an obstacle: the surface's e and mu where it has them, else the body's.
+/// How a body meets a face or an obstacle at an approach speed (m/s): the surface's e and mu where it has them, else
+/// the body's.
 template <class Real>
-Encounter encounter_of(const State<Real>& state, Index body, const Surface& surface) {
+Encounter encounter_of(const State<Real>& state, Index body, const Surface& surface, double approach) {
     const Bodies<Real>& bodies = state.bodies;
-    return {surface.restitution.value_or(static_cast<double>(bodies.restitution[body])),
-            surface.friction.value_or(static_cast<double>(bodies.friction[body]))};
+    const double mu = surface.friction.value_or(static_cast<double>(bodies.friction[body]));
+    if (surface.restitution) return plain_encounter(*surface.restitution, mu);
+    if (state.laws.materials.empty()) return plain_encounter(static_cast<double>(bodies.restitution[body]), mu);
+    const Yielder alone{static_cast<double>(bodies.mass[body]), static_cast<double>(bodies.motion[body].radius)};
+    return encounter_by_speed(state.laws, approach, mu,
+                              [&](double speed) { return restitution_of(state.laws, bodies, body, alone, speed); });
 }
 
 /// What accelerates a body between impacts, m/s^2.

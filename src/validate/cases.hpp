@@ -42,6 +42,8 @@ std::vector<Task> tunnelling_tasks(Extent extent);
 std::vector<Task> symmetry_tasks(Extent extent);
 std::vector<Task> long_run_tasks(Extent extent);
 std::vector<Task> compression_tasks(Extent extent);
+std::vector<Task> restitution_tasks(Extent extent);
+std::vector<Task> packing_tasks(Extent extent);
 
 /// What of carom's physics no case tests, and why.
 std::span<const std::string_view> not_tested();

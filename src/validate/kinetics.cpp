@@ -71,7 +71,7 @@ Findings run_relaxation(std::size_t runs) {
         findings.rows.push_back(
             statistical_row({fmt::format("a2 after {} collisions per body", r.collisions),
                              fmt::format("{} runs of 8000 spheres from equal speeds, packing 0.01", runs),
-                             "independent event-driven computation, shared/VALIDATION.md 3"},
+                             "independent event-driven computation"},
                             {r.a2, r.error}, mean_at(courses, r.collisions), 0.01));
         reference.points.push_back({r.collisions, r.a2, r.error});
     }

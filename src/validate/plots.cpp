@@ -35,9 +35,18 @@ constexpr std::array styles{
               "collisions per body", "a2"},
     PlotStyle{"haff", "Cooling by inelastic impacts", "Lines: Haff's law. Dots: carom, one run each.",
               "time, diameters / initial thermal speed", "T / T(0)", true},
+    PlotStyle{"viscoelastic_gas", "A gas of viscoelastic spheres cools",
+              "Line: kinetic theory with e by the approach speed. Dots: carom, one run.",
+              "time, diameters / initial thermal speed", "T / T(0)"},
+    PlotStyle{"restitution", "Restitution of viscoelastic spheres",
+              "Line: carom, impacts of two spheres. Dots: solutions of the equation of motion.",
+              "x = (3/2) A (rho / m)^(2/5) v^(1/5)", "e"},
     PlotStyle{"heights", "A gas under gravity",
               "Lines: balance of weight and pressure, with and without the size of the spheres. Dots: carom.",
               "height, diameters", "packing", true},
+    PlotStyle{"packing", "Poured spheres",
+              "Packing in slabs of a tenth of a diameter, and the range of random close packing.", "height, diameters",
+              "packing"},
     PlotStyle{"apexes", "A bouncing ball", "Lines: H e^2n for several e. Dots: carom.", "bounce", "h / H", true},
 };
 

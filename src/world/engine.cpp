@@ -34,8 +34,19 @@ std::int64_t whole_units(std::int64_t metres, const Resolution& resolution, std:
     return metres / static_cast<std::int64_t>(resolution.metres);
 }
 
+void check_materials(const std::vector<Material>& materials) {
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        check_law(materials[i].restitution, "materials.restitution", i);
+        const auto is_same = [&](const Material& other) { return other.key == materials[i].key; };
+        if (!std::any_of(materials.begin(), materials.begin() + static_cast<std::ptrdiff_t>(i), is_same)) continue;
+        throw Error(ErrorCode::out_of_range, "materials.key",
+                    "must differ from those before, got " + std::to_string(materials[i].key), i);
+    }
+}
+
 void check_rules(const std::vector<MaterialRule>& rules) {
     for (std::size_t i = 0; i < rules.size(); ++i) {
+        if (rules[i].law) check_law(*rules[i].law, "material_rules.law", i);
         check_fraction(rules[i].restitution, "material_rules.restitution", i);
         check_not_negative(rules[i].friction, "material_rules.friction", i);
     }
@@ -76,6 +87,7 @@ Setting checked_setting(WorldOptions options) {
     setting.origin = setting.first_origin = origin_units(options.origin, setting.resolution);
     check_finite(options.gravity, "gravity");
     check_drag(options.drag);
+    check_materials(options.materials);
     check_rules(options.material_rules);
     check_positive(options.rest_time, "rest_time");
     check_positive(options.collapse_time, "collapse_time");
@@ -97,6 +109,7 @@ Engine<Real>::Engine(Setting setting, std::uint16_t world_tag)
     state_.laws.sleeping = options.sleeping;
     state_.laws.quick_time = options.collapse_time;
     set_contact_time(state_.laws, state_.resolution);
+    state_.laws.materials = options.materials;
     state_.laws.rules = options.material_rules;
     state_.bodies.interpolating = options.interpolation;
     set_executor(make_default_executor(options.threads));

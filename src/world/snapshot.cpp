@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 8;
+constexpr std::uint32_t snapshot_version = 9;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -45,8 +45,34 @@ void transfer(Archive& archive, Plane& plane) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, PowerLaw& law) {
+    archive(law.restitution, law.speed, law.exponent);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Viscoelastic& law) {
+    archive(law.dissipation, law.modulus);
+}
+
+template <class Archive>
+void transfer(Archive& archive, RestitutionLaw& law) {
+    auto kind = static_cast<std::uint32_t>(law.index());
+    archive(kind);
+    if constexpr (Archive::reading) {
+        if (kind > 1) refuse("names an unknown law of restitution");
+        if (kind == 1) law = Viscoelastic{};
+    }
+    std::visit([&archive](auto& parameters) { archive(parameters); }, law);
+}
+
+template <class Archive>
+void transfer(Archive& archive, Material& material) {
+    archive(material.key, material.restitution);
+}
+
+template <class Archive>
 void transfer(Archive& archive, MaterialRule& rule) {
-    archive(rule.a, rule.b, rule.restitution, rule.friction);
+    archive(rule.a, rule.b, rule.restitution, rule.friction, rule.law);
 }
 
 template <class Archive>
@@ -124,7 +150,7 @@ void transfer(Archive& archive, Attractor& attractor) {
 template <class Archive>
 void transfer(Archive& archive, WorldOptions& o) {
     archive(o.gravity, o.region, o.obstacles, o.precision, o.resolution, o.origin, o.drag.linear, o.drag.quadratic,
-            o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference,
+            o.materials, o.material_rules, o.rest_time, o.collapse_time, o.work_cap, o.min_windows, o.serial_reference,
             o.record_impacts, o.least_recorded_impulse, o.interpolation, o.sleeping, o.record_contacts);
 }
 

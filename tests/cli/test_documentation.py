@@ -7,7 +7,7 @@ import re
 import shlex
 import unittest
 
-from carom_cli import ROOT, CliTest
+from carom_cli import GAS, ROOT, CliTest
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs/command_line.md").read_text(encoding="utf-8")
@@ -45,7 +45,7 @@ class Documentation(CliTest):
                 self.carom(*arguments, expect=code)
 
     def test_scenes(self):
-        scene, faces, shaken, obstacle = blocks(SCENES, "toml")
+        scene, faces, shaken, obstacle, ice, observers = blocks(SCENES, "toml")
         self.write("ball.toml", scene)
         self.assertEqual(self.json("run", "ball.toml", "--time", 1)["face_impacts"], 0)
         self.write("faces.toml", scene.replace("max = [10, 10, 10]\n", "max = [10, 10, 10]\n" + faces))
@@ -55,6 +55,22 @@ class Documentation(CliTest):
         under = scene.replace("position = [5, 5, 9]", "position = [0.5, 0.5, 5]").replace("min = [0, 0, 0]", "min = [-9, -9, 0]")
         self.write("obstacle.toml", under + obstacle)
         self.assertGreater(self.json("run", "obstacle.toml", "--time", 2)["face_impacts"], 0)
+        self.write("ice.toml", scene.replace("restitution = 0.9", 'material = "ice"') + ice)
+        self.assertGreater(self.json("run", "ice.toml", "--time", 20)["energy_lost"], 80)
+        self.write("observed.toml", scene + observers)
+        self.carom("run", "observed.toml", "--time", 3)
+        rows = list(csv.DictReader(self.read("out", "observed", "observations.csv").decode().splitlines()))
+        self.assertEqual({row["observer"] for row in rows}, {"impacts", "layers"})
+        self.assertEqual(len([row for row in rows if row["quantity"] == "density"]), 8)
+
+    def test_observations_are_described(self):
+        keys = {"energies": "", "impacts": "", "speeds": "most = 9", "profile": 'axis = "z"', "coordination": "",
+                "radial_distribution": "most = 2", "slab_packing": 'axis = "z"', "correlations": ""}
+        self.write("all.toml", GAS + "".join(f'[[observe]]\nkind = "{kind}"\nevery = 0.1\n{key}\n'
+                                             for kind, key in keys.items()))
+        self.carom("run", "all.toml")
+        rows = csv.DictReader(self.read("out", "all", "observations.csv").decode().splitlines())
+        self.assertEqual({row["quantity"] for row in rows}, set(keys_of_table("Observations")))
 
     def test_every_option_is_described(self):
         for command in ("run", "bench", "validate", "view", "render", "info", "diff"):

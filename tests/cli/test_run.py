@@ -69,6 +69,37 @@ class Run(CliTest):
         self.carom("run", "gas.toml")
         self.assertEqual(self.files("out/gas"), self.files("a/b/out"))
 
+    def test_observers(self):
+        self.write("observed.toml", GAS + """
+[[observe]]
+kind = "impacts"
+[[observe]]
+name = "speeds"
+kind = "speeds"
+most = 20
+bins = 10
+every = 0.1
+""")
+        self.carom("run", "observed.toml", "--out", "out", "--time", 4)
+        self.assertEqual(self.files("out"), ["checkpoint.carom", "energy.svg", "observations.csv", "summary.json",
+                                             "timeline.csv"])
+        with open(self.folder / "out" / "observations.csv", newline="", encoding="ascii") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), ["observer", "quantity", "unit", "at", "value", "standard_error"])
+        values = {(row["observer"], row["quantity"], row["at"]): row for row in rows}
+        summary = json.loads(self.read("out", "summary.json"))
+        rate = float(values["impacts", "collision_rate", ""]["value"])
+        self.assertAlmostEqual(rate, 2 * summary["pair_impacts"] / 60 / 4, delta=1e-9 * rate)
+        mean_square = float(values["speeds", "speed_moment_2", ""]["value"])
+        self.assertAlmostEqual(mean_square, 2 * summary["kinetic_initial"] / 60, delta=1e-9 * mean_square)
+        self.assertEqual(len([row for row in rows if row["quantity"] == "speed_density"]), 10)
+        self.assertIn("pressure", {row["quantity"] for row in rows})
+
+        message = self.refused("run", "observed.toml", "--out", "out", "--time", 8, "--resume", "out/checkpoint.carom")
+        self.assertIn("the scene has observers, and what they have seen is in no checkpoint", message)
+        self.carom("run", "gas.toml", "--out", "out")
+        self.assertNotIn("observations.csv", self.files("out"))
+
     def test_summary_for_people(self):
         out, err = self.carom("run", "gas.toml", "--out", "out")
         self.assertEqual(err, "")

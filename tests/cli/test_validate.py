@@ -61,7 +61,7 @@ class Validate(CliTest):
         text = self.read("page.html").decode()
         page = Page(text)
         self.assertEqual((page.open, page.mistakes, page.links), ([], [], []))
-        self.assertEqual(page.counts["svg"], 8)
+        self.assertEqual(page.counts["svg"], 11)
         self.assertEqual(page.counts["tr"], len(rows) + 1)
         self.assertNotIn("script", page.counts)
 

@@ -407,6 +407,21 @@ TEST(Face, GoesOnFromWhereItIsAndDoesNotDrift) {
     world.add({.position = {4, 4, stopped + 0.5}});
 }
 
+// Nobody is left whom the contacts of the pile could tell of.
+TEST(Face, WhatLiesOnItMayBeTakenAway) {
+    carom::Box box{{0, 0, 0}, {20, 20, 50}};
+    box.faces[4].motion.velocity = 0.25;
+    World world({.gravity = {0, 0, -9.81}, .region = box});
+    const std::vector<BodyId> lying{world.add({.position = {2, 10, 0.5}, .restitution = 0}),
+                                    world.add({.position = {5, 10, 0.5}, .restitution = 0})};
+    for (int k = 0; k < 30; ++k) world.step(1.0 / 60);
+    ASSERT_EQ(world.report().held, 2U);
+    world.remove(lying);
+    const BodyId next = world.add({.position = {10, 10, 20}, .restitution = 0});
+    for (int k = 0; k < 180; ++k) world.step(1.0 / 60);
+    EXPECT_TRUE(world.held(next));
+}
+
 TEST(Face, GoesOnAfterASnapshot) {
     carom::Box box = open_box(6);
     box.faces[4].motion = {.amplitude = 0.05, .angular_frequency = 20};

@@ -99,6 +99,8 @@ World random_world(unsigned seed, bool is_driven = false) {
     if (random.chance(2)) options.gravity = random.vector(10);
     if (random.chance(4)) options.drag = {.linear = 0.1, .quadratic = 0.05};
     if (random.chance(3)) options.collapse_time = 0.05;
+    // The material of every third body.
+    if (random.chance(4)) options.materials = {{.key = 1, .restitution = carom::Viscoelastic{0.02, 1e3}}};
     World world(options);
     const double speed = random.chance(3) ? 0.5 : 20;
     const double e = random.chance(3) ? 1 : random.within(0, 1);
@@ -112,7 +114,8 @@ World random_world(unsigned seed, bool is_driven = false) {
                          .mass = random.within(0.5, 3),
                          .radius = random.within(0.1, 0.9),
                          .restitution = e,
-                         .friction = random.chance(2) ? 0 : 0.3};
+                         .friction = random.chance(2) ? 0 : 0.3,
+                         .material = k % 3 == 0 ? 1U : 0U};
         if (random.chance(16)) body.velocity = random.vector(2000);
         if (random.chance(8)) {
             body.mass = std::numeric_limits<double>::infinity();

@@ -292,6 +292,29 @@ position = [10, 0, 0]
     EXPECT_EQ(scene.options.material_rules[0].friction, 0.5);
 }
 
+TEST(SceneFile, LawsOfRestitution) {
+    const Scene scene = parsed(R"(
+[[material]]
+name = "rock"
+[[material]]
+name = "ice"
+restitution = { law = "power", restitution = 0.32, speed = 0.01, exponent = 0.234 }
+[[material_rule]]
+between = ["rock", "ice"]
+restitution = { law = "viscoelastic", dissipation = 1e-5, modulus = 1e9 }
+[[bodies]]
+position = [0, 0, 0]
+material = "ice"
+)");
+    ASSERT_EQ(scene.options.materials.size(), 1U);
+    EXPECT_EQ(scene.options.materials[0].key, 2U);
+    EXPECT_EQ(scene.options.materials[0].restitution, RestitutionLaw(PowerLaw{0.32, 0.01, 0.234}));
+    ASSERT_EQ(scene.options.material_rules.size(), 1U);
+    EXPECT_EQ(scene.options.material_rules[0].law, RestitutionLaw(Viscoelastic{1e-5, 1e9}));
+    const World world = make_world(scene);
+    EXPECT_EQ(world.options().materials[0].restitution, scene.options.materials[0].restitution);
+}
+
 TEST(SceneFile, TiedAttractorsAndOrbitsAroundThem) {
     const Scene scene = parsed(R"(
 [[attractor]]

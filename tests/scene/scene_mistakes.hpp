@@ -31,7 +31,7 @@ gravity = [0, 0, -9.81
     {R"(titel = "x"
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
-     "attractor, bodies, camera, material, material_rule, obstacle, output, picture, region, run, seed, title, world"},
+     "attractor, bodies, camera, material, material_rule, observe, obstacle, output, picture, region, run, seed, title, world"},
     {R"(
 [wrold]
 )",
@@ -374,6 +374,57 @@ name = "ice"
 between = ["ice", "ice"]
 )",
      "s.toml:3: material_rule[0].restitution: is missing", ""},
+    {R"([[material]]
+name = "ice"
+restitution = { law = "powr" }
+)",
+     "s.toml:3: material[0].restitution.law: must be one of power, viscoelastic, got 'powr'; did you mean 'power'?", ""},
+    {R"([[material]]
+name = "ice"
+restitution = { law = "power", restitution = 0, speed = 1, exponent = 1 }
+)",
+     "s.toml:3: material[0].restitution.restitution: must be in (0, 1], got 0", ""},
+    {R"([[material]]
+name = "ice"
+restitution = { law = "power", restitution = 1, speed = 0, exponent = 1 }
+)",
+     "s.toml:3: material[0].restitution.speed: must be > 0 and finite, got 0", ""},
+    {R"([[material]]
+name = "ice"
+restitution = { law = "power", restitution = 1, speed = 1, exponent = -1 }
+)",
+     "s.toml:3: material[0].restitution.exponent: must be >= 0 and finite, got -1", ""},
+    {R"([[material]]
+name = "steel"
+restitution = { law = "viscoelastic", dissipation = -1, modulus = 1 }
+)",
+     "s.toml:3: material[0].restitution.dissipation: must be >= 0 and finite, got -1", ""},
+    {R"([[material]]
+name = "steel"
+restitution = { law = "viscoelastic", dissipation = 1 }
+)",
+     "s.toml:3: material[0].restitution.modulus: is missing", ""},
+    {R"([[material]]
+name = "steel"
+restitution = { law = "viscoelastic", dissipation = 1, modulus = 1, speed = 1 }
+)",
+     "s.toml:3: material[0].restitution.speed: unknown key", "dissipation, law, modulus"},
+    {R"([[material]]
+name = "ice"
+[[material_rule]]
+between = ["ice", "ice"]
+restitution = { law = "viscoelastic", dissipation = 1, modulus = -1 }
+)",
+     "s.toml:5: material_rule[0].restitution.modulus: must be >= 0", "got -1"},
+    {R"([[material]]
+name = "ice"
+restitution = { law = "power", restitution = 1, speed = 1, exponent = 1 }
+[[bodies]]
+position = [0, 0, 0]
+material = "ice"
+restitution = 0.5
+)",
+     "s.toml:6: bodies[0].material: has a law of restitution: its bodies must have no restitution of their own", ""},
     {R"([bodies]
 position = [0, 0, 0]
 )",
@@ -759,6 +810,147 @@ around = "sun"
 velocity = { distribution = "orbit" }
 )",
      "s.toml:3: bodies[0].around: must be the name of an [[attractor]], but the scene has none", ""},
+    {R"([[observe]]
+every = 1
+)",
+     "s.toml:1: observe[0].kind: is missing", ""},
+    {R"([[observe]]
+kind = "pressure"
+)",
+     "s.toml:2: observe[0].kind: must be one of energies, impacts, speeds, profile, radial_distribution, coordination, "
+     "slab_packing, correlations, got 'pressure'", ""},
+    {R"([[observe]]
+kind = "energies"
+every = -1
+)",
+     "s.toml:3: observe[0].every: must be >= 0", "got -1"},
+    {R"([[observe]]
+kind = "energies"
+every = 1e300
+)",
+     "s.toml:3: observe[0].every: must be at most 2^53 steps", ""},
+    {R"([[observe]]
+kind = "energies"
+from = nan
+)",
+     "s.toml:3: observe[0].from: must be >= 0", "got nan"},
+    {R"([[observe]]
+kind = "energies"
+most = 1
+)",
+     "s.toml:3: observe[0].most: unknown key", "every, from, kind, name"},
+    {R"([[observe]]
+kind = "energies"
+[[observe]]
+kind = "energies"
+)",
+     "s.toml:3: observe[1].name: must differ from those of earlier observers, got 'energies'", ""},
+    {R"([[observe]]
+kind = "energies"
+name = "a,b"
+)",
+     "s.toml:3: observe[0].name: must be of letters, digits, _ and -", ""},
+    {R"([output]
+least_recorded_impulse = 1
+[[observe]]
+kind = "impacts"
+)",
+     "s.toml:4: observe[0].kind: needs all impacts, and output.least_recorded_impulse leaves out weak ones", ""},
+    {R"([[bodies]]
+position = [0, 0, 0]
+growth = 1
+[[observe]]
+kind = "impacts"
+)",
+     "s.toml:5: observe[0].kind: must not be impacts where bodies grow", ""},
+    {R"([[observe]]
+kind = "speeds"
+)",
+     "s.toml:1: observe[0].most: is missing", ""},
+    {R"([[observe]]
+kind = "speeds"
+most = 0
+)",
+     "s.toml:3: observe[0].most: must be > 0", ""},
+    {R"([[observe]]
+kind = "speeds"
+most = 1
+bins = 0
+)",
+     "s.toml:4: observe[0].bins: must be an integer in [1, 1000000], got 0", ""},
+    {R"([[observe]]
+kind = "profile"
+axis = "w"
+)",
+     "s.toml:3: observe[0].axis: must be one of x, y, z, got 'w'", ""},
+    {R"([[observe]]
+kind = "profile"
+axis = "x"
+low = 0
+)",
+     R"(s.toml:1: observe[0].high: is missing: without a region of kind "box" it must be given)", ""},
+    {R"([[observe]]
+kind = "profile"
+axis = "x"
+low = 0
+high = 1
+)",
+     R"(s.toml:1: observe[0].area: is missing: without a region of kind "box" it must be given)", ""},
+    {R"([[observe]]
+kind = "slab_packing"
+axis = "x"
+low = 2
+high = 1
+area = 1
+)",
+     "s.toml:5: observe[0].high: low must be less than high, got 2 and 1", ""},
+    {R"([[observe]]
+kind = "slab_packing"
+axis = "x"
+low = 0
+high = 1
+area = -1
+)",
+     "s.toml:6: observe[0].area: must be > 0", ""},
+    {R"([[observe]]
+kind = "profile"
+axis = "x"
+low = 0
+high = 1
+area = 1
+slices = 0
+)",
+     "s.toml:7: observe[0].slices: must be an integer in [1, ", ""},
+    {R"([[observe]]
+kind = "radial_distribution"
+most = 1
+)",
+     R"(s.toml:2: observe[0].kind: needs a region of kind "box")", ""},
+    {R"([region]
+kind = "box"
+min = [0, 0, 0]
+max = [4, 8, 8]
+faces = { x = "periodic" }
+[[observe]]
+kind = "radial_distribution"
+most = 3
+)",
+     "s.toml:8: observe[0].most: must be at most half of a periodic side, 2, got 3", ""},
+    {R"([[observe]]
+kind = "coordination"
+gap = -1
+)",
+     "s.toml:3: observe[0].gap: must be >= 0", ""},
+    {R"([[observe]]
+kind = "correlations"
+lags = 0
+)",
+     "s.toml:3: observe[0].lags: must be an integer in [1, ", ""},
+    {R"([[observe]]
+kind = "correlations"
+origin_every = 0
+)",
+     "s.toml:3: observe[0].origin_every: must be an integer in [1, ", ""},
     {R"([camera]
 position = [1, 2, 3]
 target = [1, 2, 3]

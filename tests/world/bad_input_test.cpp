@@ -382,6 +382,36 @@ TEST(BadOptions, Numbers) {
          {-denormal, beyond},
          false,
          1},
+        {"materials.restitution.restitution",
+         [](double v) { return WorldOptions{.materials = {{.restitution = carom::PowerLaw{v, 1, 1}}}}; },
+         {0, -denormal, beyond},
+         false,
+         0},
+        {"materials.restitution.speed",
+         [](double v) { return WorldOptions{.materials = {{.restitution = carom::PowerLaw{1, v, 1}}}}; },
+         {0, -1},
+         false,
+         0},
+        {"materials.restitution.exponent",
+         [](double v) { return WorldOptions{.materials = {{}, {.key = 1, .restitution = carom::PowerLaw{1, 1, v}}}}; },
+         {-denormal},
+         false,
+         1},
+        {"materials.restitution.dissipation",
+         [](double v) { return WorldOptions{.materials = {{.restitution = carom::Viscoelastic{v, 1}}}}; },
+         {-1},
+         false,
+         0},
+        {"materials.restitution.modulus",
+         [](double v) { return WorldOptions{.materials = {{.restitution = carom::Viscoelastic{1, v}}}}; },
+         {-1},
+         false,
+         0},
+        {"material_rules.law.modulus",
+         [](double v) { return WorldOptions{.material_rules = {{.law = carom::Viscoelastic{1, v}}}}; },
+         {-1},
+         false,
+         0},
         {"material_rules.friction",
          [](double v) { return WorldOptions{.material_rules = {{.friction = v}}}; },
          {-1},
@@ -453,6 +483,7 @@ TEST(BadOptions, OutsideTheWorld) {
 }
 
 TEST(BadOptions, TheRest) {
+    expect_no_world({ErrorCode::out_of_range, "materials.key", 1}, {.materials = {{.key = 7}, {.key = 7}}}, 7);
     expect_no_world({ErrorCode::out_of_range, "precision"}, {.precision = static_cast<Precision>(2)}, 2);
     for (const std::uint32_t windows : {0U, 1'000'001U}) {
         expect_no_world({ErrorCode::out_of_range, "min_windows"}, {.min_windows = windows}, windows);

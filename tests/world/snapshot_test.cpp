@@ -80,20 +80,22 @@ TEST_P(Snapshots, AFurnishedWorldGoesOn) {
 }
 
 TEST_P(Snapshots, OptionsAreKept) {
-    WorldOptions options{.gravity = {1, 2, 3},
-                         .region = Box{{-1, -2, -3}, {1, 2, 3}},
-                         .precision = GetParam(),
-                         .resolution = std::ldexp(1.0, -30),
-                         .origin = {4, 5, 6},
-                         .drag = {.linear = 0.1, .quadratic = 0.2},
-                         .material_rules = {{.a = 3, .b = 4, .restitution = 0.25, .friction = 2}},
-                         .rest_time = 0.03,
-                         .collapse_time = 0.004,
-                         .work_cap = 1234,
-                         .min_windows = 5,
-                         .record_impacts = false,
-                         .least_recorded_impulse = 0.5,
-                         .interpolation = true};
+    WorldOptions options{
+        .gravity = {1, 2, 3},
+        .region = Box{{-1, -2, -3}, {1, 2, 3}},
+        .precision = GetParam(),
+        .resolution = std::ldexp(1.0, -30),
+        .origin = {4, 5, 6},
+        .drag = {.linear = 0.1, .quadratic = 0.2},
+        .materials = {{.key = 5, .restitution = PowerLaw{0.5, 0.25, 0.125}}},
+        .material_rules = {{.a = 3, .b = 4, .restitution = 0.25, .friction = 2}, {.law = Viscoelastic{1e-5, 1e9}}},
+        .rest_time = 0.03,
+        .collapse_time = 0.004,
+        .work_cap = 1234,
+        .min_windows = 5,
+        .record_impacts = false,
+        .least_recorded_impulse = 0.5,
+        .interpolation = true};
     std::get<Box>(options.region).faces[2].kind = FaceKind::open;
     std::get<Box>(options.region).faces[5].surface = {.restitution = 0.5, .friction = 0.75};
     const World loaded = World::load(World(options).save());
@@ -104,7 +106,12 @@ TEST_P(Snapshots, OptionsAreKept) {
     EXPECT_EQ(kept.origin, options.origin);
     EXPECT_EQ(kept.drag.linear, options.drag.linear);
     EXPECT_EQ(kept.drag.quadratic, options.drag.quadratic);
-    ASSERT_EQ(kept.material_rules.size(), 1U);
+    ASSERT_EQ(kept.materials.size(), 1U);
+    EXPECT_EQ(kept.materials[0].key, 5U);
+    EXPECT_EQ(kept.materials[0].restitution, options.materials[0].restitution);
+    ASSERT_EQ(kept.material_rules.size(), 2U);
+    EXPECT_EQ(kept.material_rules[0].law, std::nullopt);
+    EXPECT_EQ(kept.material_rules[1].law, options.material_rules[1].law);
     EXPECT_EQ(kept.material_rules[0].b, 4U);
     EXPECT_EQ(kept.material_rules[0].friction, 2);
     EXPECT_EQ(kept.rest_time, options.rest_time);
@@ -202,6 +209,7 @@ World small_world(Precision precision) {
     World world({.gravity = {0, 0, -10},
                  .region = Box{{0, 0, 0}, {8, 8, 8}},
                  .precision = precision,
+                 .materials = {{.key = 3, .restitution = Viscoelastic{1e-3, 1e6}}},
                  .material_rules = {{.a = 1, .b = 2, .restitution = 0.5}},
                  .interpolation = true});
     const BodyId lying = world.add({.position = {2, 2, 0.5}, .restitution = 0, .friction = 0.5});
