@@ -180,7 +180,7 @@ TEST(NextImpact, IsTheOneThatTheWorldMakes) {
         const BodyId flyer = world.add({.position = {-5, 0, 5}, .velocity = {4, 0, 3}});
         world.add({.position = {0.5, 0.2, 8}, .mass = infinite_mass, .radius = 1});
         world.add({.position = {5, 5, 9}, .velocity = {-1, -1, 0}});
-        const auto next = next_impact(world, flyer, 100);
+        const auto next = LookAhead().next_impact(world, flyer, 100);
         ASSERT_TRUE(next);
         while (world.impacts().empty()) world.step(0.1);
         const Impact& first = world.impacts().front();
@@ -193,7 +193,7 @@ TEST(NextImpact, IsTheOneThatTheWorldMakes) {
 TEST(NextImpact, OfFacesPlanesShellsAndNothing) {
     const auto next_in = [](const Region& region) {
         World world({.region = region});
-        return next_impact(world, world.add({.velocity = {2, 0, 0}}), 100);
+        return LookAhead().next_impact(world, world.add({.velocity = {2, 0, 0}}), 100);
     };
     EXPECT_NEAR(next_in(Box{{-3, -3, -3}, {3, 3, 3}})->in, 1.25, 1e-12);
     EXPECT_EQ(next_in(Box{{-3, -3, -3}, {3, 3, 3}})->face, 1);
@@ -203,7 +203,54 @@ TEST(NextImpact, OfFacesPlanesShellsAndNothing) {
     EXPECT_EQ(plane->face, 1);
     EXPECT_FALSE(next_in(OpenSpace{}));
     World world;
-    EXPECT_FALSE(next_impact(world, world.add({.mass = infinite_mass}), 100));
+    EXPECT_FALSE(LookAhead().next_impact(world, world.add({.mass = infinite_mass}), 100));
+}
+
+/// Asks ten times on the way to the first impact: each time it is told, and it is the one that comes.
+void expect_first_impact_to_be_told(World world, BodyId flyer) {
+    LookAhead look_ahead;
+    World future = world;
+    while (future.impacts().empty()) future.step(0.01);
+    const Impact& first = future.impacts().front();
+    const double part = (first.time - world.time()) / 10;
+    for (int i = 0; i < 10; ++i) {
+        const auto next = look_ahead.next_impact(world, flyer, 100);
+        ASSERT_TRUE(next);
+        EXPECT_NEAR(next->in, first.time - world.time(), 1e-9);
+        EXPECT_EQ(next->face, first.face);
+        world.step(part);
+    }
+}
+
+TEST(NextImpact, WithObstacles) {
+    const Frustum funnel{{0, 0, 2}, {0, 0, 1}, 1.5, 0.6, 1.9};
+    const Mesh slope{{{-5, -5, 0}, {5, -5, 0}, {5, 5, 1}, {-5, 5, 1}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    for (const Vec3& position : {Vec3{0.9, 0, 8}, Vec3{-4, 1, 8}}) {
+        World world({.gravity = {0, 0, -9.81}, .region = Box{{-9, -9, -5}, {9, 9, 20}}, .obstacles = {slope, funnel}});
+        expect_first_impact_to_be_told(world,
+                                       world.add({.position = position, .velocity = {0, 0.2, 0}, .radius = 0.1}));
+    }
+}
+
+TEST(NextImpact, WithFacesThatMove) {
+    Box shaker{{0, 0, 0}, {4, 4, 9}};
+    shaker.faces[4].motion = {.amplitude = 0.3, .angular_frequency = 20};
+    World world({.gravity = {0, 0, -9.81}, .region = shaker});
+    const BodyId ball = world.add({.position = {2, 2, 6}, .radius = 0.1});
+    world.step(0.123); // not at the beginning of the motion
+    expect_first_impact_to_be_told(world, ball);
+}
+
+TEST(NextImpact, OfWhatComesToLieOnAnObstacleIsNone) {
+    const Mesh table{{{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    World world({.gravity = {0, 0, -9.81}, .obstacles = {table}});
+    const BodyId ball = world.add({.position = {0, 0, 0.5 + 1e-4}, .restitution = 0});
+    EXPECT_FALSE(world.held(ball));
+    EXPECT_FALSE(LookAhead().next_impact(world, ball, 100));
+    world.step(1);
+    EXPECT_TRUE(world.impacts().empty());
+    EXPECT_TRUE(world.held(ball));
+    EXPECT_FALSE(LookAhead().next_impact(world, ball, 100));
 }
 
 // Mouse and cameras ---------------------------------------------------------------------------------------------------

@@ -30,11 +30,11 @@ class Shooting {
 public:
     Shooting(const scene::Scene& scene, unsigned threads)
         : scene_(to_be_seen(scene)), world_(scene::make_world(scene_)), spectator_(scene.view.picture.colour_by),
-          stage_(scene_.options.region) {
+          stage_(scene_.options.obstacles) {
         world_.set_threads(threads);
         stage_.set_trails(scene.view.picture.trails);
         look();
-        to_see_ = ball_to_see(scene_.options.region, ball_around(moment_->position, *moment_->radii));
+        to_see_ = stage_.to_see(*moment_);
     }
 
     [[nodiscard]] const World& world() const { return world_; }
@@ -54,7 +54,7 @@ public:
     /// The scene at `time` in the last step; a picture of a moment looks for its camera then.
     const Drawing& draw(double time, bool is_moment) {
         if (!looked_) look();
-        if (is_moment) to_see_ = ball_to_see(scene_.options.region, ball_around(moment_->position, *moment_->radii));
+        if (is_moment) to_see_ = stage_.to_see(*moment_);
         const Vec3 up = up_of(scene_.view.camera, scene_.options.gravity);
         return stage_.draw(*moment_, time, camera_at(scene_.view.camera, time, to_see_, up));
     }

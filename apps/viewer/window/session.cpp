@@ -97,8 +97,8 @@ void Session::open_snapshot(const std::filesystem::path& file) {
 void Session::find_home(const scene::CameraSpec& spec) {
     moment_ = simulation_->moment();
     clock_ = moment_->end;
-    stage_ = Stage(simulation_->region());
-    ball_ = ball_to_see(simulation_->region(), ball_around(moment_->position, *moment_->radii));
+    stage_ = Stage(simulation_->obstacles());
+    ball_ = stage_.to_see(*moment_);
     home_ = camera_at(spec, 0, ball_, up_of(spec, gravity));
     rig_.set_camera(home_);
 }

@@ -15,7 +15,7 @@ constexpr std::uint64_t steps_between_snapshots = 20;
 /// What is computed ahead of the picture is shown that often, so that it costs little.
 constexpr std::chrono::milliseconds between_moments{8};
 /// s of the world that the look ahead of a picked body goes.
-constexpr double look_ahead = 100;
+constexpr double horizon = 100;
 
 scene::Scene to_be_viewed(scene::Scene scene) {
     scene.options.interpolation = true;
@@ -33,7 +33,7 @@ Simulation::Simulation(const scene::Scene& scene)
     : Simulation(scene::make_world(to_be_viewed(scene)), scene.run.dt, scene.view.picture.colour_by) {}
 
 Simulation::Simulation(World world, double dt, scene::ColourBy colour_by)
-    : world_(std::move(world)), dt_(dt), region_(world_.options().region), spectator_(colour_by),
+    : world_(std::move(world)), dt_(dt), obstacles_(world_.options().obstacles), spectator_(colour_by),
       history_(world_, most_history, steps_between_snapshots), goal_(world_.time()) {
     publish();
     thread_ = std::thread([this] { live(); });
@@ -129,7 +129,7 @@ void Simulation::publish() {
     status.step_seconds = step_seconds_;
     if (picked_) {
         status.picked = PickedBody{*picked_, world_.get(*picked_), world_.held(*picked_),
-                                   next_impact(world_, *picked_, look_ahead)};
+                                   look_ahead_.next_impact(world_, *picked_, horizon)};
     }
     const std::scoped_lock lock(mutex_);
     status.problem = status_.problem;

@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,7 +64,7 @@ public:
 
     [[nodiscard]] double dt() const { return dt_; } ///< s
     /// Not shared with the thread: what never changes.
-    [[nodiscard]] const Region& region() const { return region_; }
+    [[nodiscard]] std::span<const Obstacle> obstacles() const { return obstacles_; }
 
     /// \name Orders; each returns at once
     /// @{
@@ -101,10 +102,11 @@ private:
     // Of the thread alone.
     World world_;
     double dt_;
-    Region region_;
+    std::vector<Obstacle> obstacles_;
     Spectator spectator_;
     History history_;
     std::optional<BodyId> picked_;
+    LookAhead look_ahead_;
     bool forces_ = false;
     double step_seconds_ = 0;
     std::shared_ptr<Moment> spare_; ///< memory of a moment that nobody looks at any more
