@@ -112,6 +112,15 @@ TEST(Colours, ImpactRatesAreCountedAndForgotten) {
     EXPECT_NEAR(spectator.look(world, false)->highest, 10, 1);
 }
 
+TEST(Colours, TellStaticBodiesFromKinematicOnes) {
+    World world =
+        world_of({}, {{.mass = infinite_mass}, {.position = {5, 0, 0}, .velocity = {0, 0, 1}, .mass = infinite_mass}});
+    world.step(0.1);
+    const auto moment = Spectator(scene::ColourBy::speed).look(world, false);
+    EXPECT_EQ(moment->looks[0], look_of(PaletteRow::still, 0));
+    EXPECT_EQ(moment->looks[1], look_of(PaletteRow::still, 1));
+}
+
 TEST(Colours, ShadesOfAMaterialStayInItsHue) {
     for (std::uint32_t material = 0; material < 8; ++material) {
         for (std::uint32_t seed = 0; seed < 100; ++seed) {
