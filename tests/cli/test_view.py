@@ -11,9 +11,10 @@ import time
 import unittest
 import zlib
 
-from carom_cli import ROOT, CliTest
+from carom_cli import GAS, ROOT, CliTest
 
 WIDTH, HEIGHT = 640, 460
+HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
 REFERENCE = ROOT / "tests/data/pictures/window.png"
 
 
@@ -66,7 +67,8 @@ class View(CliTest):
         (self.config / "carom").mkdir(parents=True)
         self.settings = self.config / "carom/view.json"
         self.settings.write_text(json.dumps({"width": WIDTH, "height": HEIGHT, "cameras": {}}))
-        self.environment = dict(os.environ, DISPLAY=f":{self.number}", XDG_CONFIG_HOME=str(self.config))
+        self.environment = dict(os.environ, DISPLAY=f":{self.number}", XDG_CONFIG_HOME=str(self.config),
+                                ALSOFT_DRIVERS="null")  # a sound device that nobody hears
 
     def script(self, text):
         """Text of a script, with what must hold at the end of each."""
@@ -178,6 +180,42 @@ class View(CliTest):
             wait 3
             expect bodies = 3
             expect steps < 10
+        """)
+
+    @unittest.skipUnless(HAS_SOUND, "built without OpenAL Soft")
+    def test_impacts_are_heard(self):
+        self.write("gas.toml", GAS)
+        self.view("gas.toml", """
+            wait 30
+            expect audible = 1
+            expect silence = 0
+            wait 30
+            expect strikes_heard > 10
+            press volume 0.5
+            wait 2
+            expect volume > 0.4
+            expect volume < 0.6
+            key m
+            wait 1
+            expect volume = 0
+        """)
+        kept = json.loads(self.settings.read_text())
+        self.assertTrue(kept["muted"])
+        self.assertAlmostEqual(kept["volume"], 0.5, delta=0.1)
+        self.view("gas.toml", "wait 2\nexpect volume = 0\nkey m\nwait 1\nexpect volume > 0.4\n")
+
+    def test_without_a_sound_device(self):
+        self.environment["ALSOFT_DRIVERS"] = "wave"  # writes to a file that nobody has named
+        self.write("gas.toml", GAS)
+        self.view("gas.toml", """
+            wait 30
+            expect audible = 0
+            expect silence = 1
+            expect steps > 10
+            press Retry
+            wait 30
+            expect silence = 1
+            expect strikes_heard = 0
         """)
 
     def test_looks_as_it_did(self):

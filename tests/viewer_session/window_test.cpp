@@ -1,8 +1,10 @@
 // The viewer without its window: simulation thread, way back, picking, look ahead, cameras, input and settings.
 #include "scene/temporary_folder.hpp"
+#include "sound/room.hpp"
 #include "viewer/drawings.hpp"
 #include "viewer/window/browser.hpp"
 #include "viewer/window/camera_rig.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
 #include "viewer/window/next_impact.hpp"
 #include "viewer/window/picking.hpp"
@@ -338,6 +340,93 @@ TEST(Inputs, TellClicksFromDrags) {
     EXPECT_EQ(input.pressed().size(), 1U);
 }
 
+// Ears ----------------------------------------------------------------------------------------------------------------
+
+using test::Room;
+
+TimedStrike strike_at(double time) { return {time, {.position = {0, 1, 0}, .restitution = 0}}; }
+
+TEST(Hearing, IsInTimeWithThePicture) {
+    Room room;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    // Frames of 50 ms that show 0.2 s of the world each; the simulation is ahead by two of them.
+    const std::vector<double> times{0.1, 0.5, 0.85, 1.3};
+    std::size_t next = 0;
+    for (int frame = 0; frame < 10; ++frame) {
+        const double before = 0.2 * frame;
+        for (; next < times.size() && times[next] <= before + 0.6; ++next) {
+            const TimedStrike strike = strike_at(times[next]);
+            ears.add({&strike, 1});
+        }
+        ears.hear(before, before + 0.2, 0.05, {});
+        test::pass(room, 0.05);
+    }
+    const std::vector<double> heard = test::onsets(room);
+    ASSERT_EQ(heard.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(heard[i], 0.025 + times[i] / 4, 0.005) << i;
+    EXPECT_EQ(ears.heard(), times.size());
+    EXPECT_EQ(ears.problem(), "");
+}
+
+TEST(Hearing, ForgetsWhatDoesNotHappenAnyMore) {
+    Room room;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    const std::vector<TimedStrike> strikes{strike_at(0.5), strike_at(1.5)};
+    ears.add(strikes);
+    ears.hear(1, 1, 0.1, {});   // the first one is late, and heard at once
+    ears.hear(1, 0.9, 0.1, {}); // a step back
+    ears.hear(0.9, 9, 0.1, {});
+    EXPECT_EQ(ears.heard(), 1U);
+    ears.add(strikes);
+    ears.begin_scene({});
+    ears.hear(0, 9, 0.1, {});
+    EXPECT_EQ(ears.heard(), 1U);
+}
+
+TEST(Hearing, SaysWhyThereIsNoneAndTriesAgain) {
+    Room room;
+    room.plugged = false;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return !ears.problem().empty(); }));
+    EXPECT_EQ(ears.problem(), "sound: there is no sound device");
+    const TimedStrike strike = strike_at(0.5);
+    ears.add({&strike, 1});
+    ears.hear(0, 1, 0.1, {});
+    EXPECT_EQ(ears.heard(), 0U);
+    test::plug(room, true);
+    ears.try_again();
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    EXPECT_EQ(ears.problem(), "");
+}
+
+TEST(Hearing, OfASimulationIsOfItsImpacts) {
+    Simulation simulation(small_gas(), 0.05, scene::ColourBy::material);
+    simulation.run_to(0.999);
+    simulation.wait_until_idle();
+    EXPECT_TRUE(simulation.take_strikes().empty()); // nobody listens
+    simulation.hear(true);
+    simulation.run_to(1.999);
+    simulation.wait_until_idle();
+    const std::vector<TimedStrike> strikes = simulation.take_strikes();
+    World world = small_gas();
+    std::vector<double> expected;
+    while (world.time() < 1.99) {
+        world.step(0.05);
+        if (world.time() < 1.01) continue;
+        for (const Impact& impact : world.impacts())
+            expected.insert(expected.end(), impact.b.is_set() ? 2 : 1, impact.time);
+    }
+    ASSERT_GT(expected.size(), 10U);
+    ASSERT_EQ(strikes.size(), expected.size());
+    for (std::size_t i = 0; i < strikes.size(); ++i) EXPECT_NEAR(strikes[i].time, expected[i], 1e-12);
+    simulation.run_to(2.999);
+    simulation.step_back();
+    simulation.wait_until_idle();
+    EXPECT_TRUE(simulation.take_strikes().empty()); // of a time that was left
+}
+
 // Sessions ------------------------------------------------------------------------------------------------------------
 
 constexpr const char* two_balls = R"(
@@ -459,6 +548,23 @@ TEST(Sessions, OpenSnapshotsAndRefuseOtherFiles) {
     EXPECT_THROW(Session(folder.write("bad.toml", "x = 1")), scene::SceneError);
 }
 
+TEST(Sessions, HearFromTheCameraAndWithWhomItFollows) {
+    const TemporaryFolder folder;
+    Session session(folder.write("two.toml", two_balls));
+    EXPECT_EQ(session.sound_settings().reference_distance, 10); // half the way to the target
+    sound::Listener listener = session.listener();
+    EXPECT_EQ(listener.position, (Vec3{0, -20, 5}));
+    EXPECT_EQ(listener.forward, (Vec3{0, 1, 0}));
+    EXPECT_EQ(listener.velocity, Vec3{});
+    session.pick(session.moment()->ids->at(1));
+    session.rig().set_mode(CameraMode::follow);
+    session.advance(0.05, true); // a step: it falls
+    EXPECT_NEAR(session.listener().velocity.z, -1, 1e-9);
+    session.rig().set_camera({{0, 0, 9}, {0, 0, 0}, {0, 0, 1}}); // straight down: up is not along it
+    listener = session.listener();
+    EXPECT_NEAR(dot(listener.up, listener.forward), 0, 1e-12);
+}
+
 TEST(Sessions, AreFineWithoutBodies) {
     const TemporaryFolder folder;
     Session session(folder.write("empty.toml", ""));
@@ -490,12 +596,16 @@ TEST(ViewSettings, ComeBack) {
     Settings settings;
     settings.width = 640;
     settings.height = 480;
+    settings.volume = 0.25;
+    settings.muted = true;
     settings.cameras["/scenes/a b.toml"] = {{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 25};
     const auto file = folder.path() / "deep/er/view.json";
     save_settings(settings, file);
     const Settings back = load_settings(file);
     EXPECT_EQ(back.width, 640);
     EXPECT_EQ(back.height, 480);
+    EXPECT_EQ(back.volume, 0.25);
+    EXPECT_TRUE(back.muted);
     const Camera& camera = back.cameras.at("/scenes/a b.toml");
     EXPECT_EQ(camera.position, (Vec3{1, 2, 3}));
     EXPECT_EQ(camera.target, (Vec3{4, 5, 6}));
@@ -508,6 +618,7 @@ TEST(ViewSettings, ThatMakeNoSenseAreTheUsualOnes) {
     EXPECT_EQ(load_settings(folder.path() / "missing.json").width, Settings{}.width);
     for (const char* text :
          {"", "{", "[]", "3", R"({"width": "x"})", R"({"width": -5, "height": 1e9, "cameras": {}})",
+          R"({"volume": "x", "cameras": {}})",
           R"({"cameras": {"a": {"position": [1, 2], "target": [0, 0, 0], "up": [0, 0, 1], "field_of_view": 4}}})",
           R"({"cameras": {"a": {"position": [1, 2, 3], "target": [1, 2, 3], "up": [0, 0, 1], "field_of_view": 4}}})"}) {
         const Settings settings = load_settings(folder.write("view.json", text));

@@ -37,7 +37,9 @@ public:
         stage_.set_trails(scene.view.picture.trails);
         look();
         to_see_ = stage_.to_see(*moment_);
-        if (sound) track_.emplace(world_, sound_settings(world_, camera(world_.time())), scene.view.picture.time_scale);
+        if (!sound) return;
+        const sound::SoundSettings settings = heard_from(camera(world_.time()), sound::settings_for(world_));
+        track_.emplace(world_, settings, scene.view.picture.time_scale);
     }
 
     [[nodiscard]] const World& world() const { return world_; }

@@ -9,8 +9,7 @@ sound::Listener listener_at(const Camera& camera, const Vec3& velocity) {
     return {.position = camera.position, .forward = axes.forward, .up = axes.up, .velocity = velocity};
 }
 
-sound::SoundSettings sound_settings(const World& world, const Camera& camera) {
-    sound::SoundSettings settings = sound::settings_for(world);
+sound::SoundSettings heard_from(const Camera& camera, sound::SoundSettings settings) {
     settings.reference_distance = length(camera.target - camera.position) / 2;
     return settings;
 }

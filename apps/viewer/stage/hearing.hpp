@@ -5,14 +5,12 @@
 #include "viewer/render/drawing.hpp"
 #include "viewer/sound/sound_stage.hpp"
 
-#include <carom/world.hpp>
-
 namespace carom::viewer {
 
 /// Ears at the camera, which moves with `velocity` (m/s).
 sound::Listener listener_at(const Camera& camera, const Vec3& velocity = {});
 
-/// Settings that suit the world as it stands; what is at the camera's target is half as loud as it can be.
-sound::SoundSettings sound_settings(const World& world, const Camera& camera);
+/// With `camera` at its place what is at its target is half as loud as it can be.
+sound::SoundSettings heard_from(const Camera& camera, sound::SoundSettings settings);
 
 } // namespace carom::viewer

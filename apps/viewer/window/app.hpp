@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/render/renderer.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/input.hpp"
 #include "viewer/window/panels.hpp"
 #include "viewer/window/session.hpp"
@@ -49,6 +50,9 @@ private:
     void obey_key(Key key);
     void obey_mouse(double seconds);
     void draw_picture(int width, int height);
+    /// What has happened from `before` (s of the world) to what is shown now, in `seconds` of the wall clock.
+    void hear(double before, double seconds);
+    void set_sound();
     [[nodiscard]] Place under_mouse() const;
 
     Screen& screen_;
@@ -59,6 +63,7 @@ private:
     Panels panels_;
     PanelState state_;
     std::unique_ptr<Session> session_;
+    Ears ears_;
     Stage empty_; ///< what is shown without a session
     std::future<std::unique_ptr<Session>> opening_;
     int width_ = 1;

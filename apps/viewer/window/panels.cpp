@@ -114,6 +114,7 @@ void Panels::draw_control(Session& session, PanelState& state) {
     draw_time(session);
     ImGui::Separator();
     draw_view(session, state);
+    draw_sound(state);
     ImGui::Separator();
     draw_world(session);
     ImGui::Separator();
@@ -166,6 +167,20 @@ void Panels::draw_view(Session& session, PanelState& state) {
     check("shadows", state.shadows);
     ImGui::SameLine();
     check("fine", state.fine);
+}
+
+void Panels::draw_sound(PanelState& state) {
+    if (!state.silence.empty()) {
+        ImGui::TextDisabled("%s", state.silence.c_str());
+        state.try_sound = button("Retry");
+        return;
+    }
+    constexpr float width = 130; // pixels
+    ImGui::SetNextItemWidth(width);
+    slider("volume", state.volume, 0, 1, "%.2f");
+    widgets_["volume"].z = width;
+    ImGui::SameLine(width + 83);
+    check("mute", state.muted);
 }
 
 void Panels::draw_world(Session& session) {
@@ -301,7 +316,7 @@ void Panels::draw_browser(Browser& browser, PanelState& state, std::optional<std
 }
 
 void Panels::draw_help(PanelState& state) {
-    constexpr std::array<std::pair<const char*, const char*>, 17> lines{{{"Space", "pause, go on"},
+    constexpr std::array<std::pair<const char*, const char*>, 18> lines{{{"Space", "pause, go on"},
                                                                          {"Right", "one step"},
                                                                          {"Left", "one step back"},
                                                                          {"R", "restart"},
@@ -315,6 +330,7 @@ void Panels::draw_help(PanelState& state) {
                                                                          {"F", "shoot at what is under the mouse"},
                                                                          {"C", "next meaning of colours"},
                                                                          {"T", "trails"},
+                                                                         {"M", "sound off, and on"},
                                                                          {"B", "scenes"},
                                                                          {"P", "panels away, and back"},
                                                                          {"Esc", "let go, close this"}}};

@@ -4,11 +4,13 @@
 #include "scene/checkpoint.hpp"
 #include "scene/scene.hpp"
 #include "viewer/stage/camera_path.hpp"
+#include "viewer/stage/hearing.hpp"
 
 #include <carom/base.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::viewer {
 
@@ -165,6 +167,18 @@ const Drawing& Session::draw() {
         }
     }
     return stage_.draw(*moment_, clock_, rig_.camera());
+}
+
+void Session::hear(bool wanted) {
+    if (std::exchange(hears_, wanted) != wanted) simulation_->hear(wanted);
+}
+
+sound::SoundSettings Session::sound_settings() const { return heard_from(home_, simulation_->sound_settings()); }
+
+sound::Listener Session::listener() const {
+    const Status status = simulation_->status();
+    const bool follows = rig_.mode() == CameraMode::follow && status.picked;
+    return listener_at(rig_.camera(), follows ? status.picked->body.velocity : Vec3{});
 }
 
 void Session::pick_at(const Place& place) { pick(body_at(*moment_, clock_, rig_.camera(), place)); }

@@ -66,6 +66,17 @@ public:
     [[nodiscard]] double trails() const { return trails_; }
     /// @}
 
+    /// \name What is heard
+    /// @{
+    /// Impacts are to be heard, or are not.
+    void hear(bool wanted);
+    [[nodiscard]] std::vector<TimedStrike> take_strikes() { return simulation_->take_strikes(); }
+    /// Those that suit the scene as it begins, seen from where the camera began.
+    [[nodiscard]] sound::SoundSettings sound_settings() const;
+    /// Ears at the camera; they move with the body that it follows.
+    [[nodiscard]] sound::Listener listener() const;
+    /// @}
+
     /// \name What the user changes in the world
     /// @{
     void set_gravity(const Vec3& gravity);
@@ -107,6 +118,7 @@ private:
     std::optional<BodyId> picked_;
     scene::ColourBy colour_by_ = scene::ColourBy::material;
     bool forces_ = false;
+    bool hears_ = false;
     double trails_ = 0;
 };
 

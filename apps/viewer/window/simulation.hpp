@@ -4,6 +4,7 @@
 
 #include "scene/scene.hpp"
 #include "viewer/stage/moment.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
 #include "viewer/window/next_impact.hpp"
 
@@ -65,6 +66,8 @@ public:
     [[nodiscard]] double dt() const { return dt_; } ///< s
     /// Not shared with the thread: what never changes.
     [[nodiscard]] std::span<const Obstacle> obstacles() const { return obstacles_; }
+    /// Those that suit the start.
+    [[nodiscard]] const sound::SoundSettings& sound_settings() const { return sound_settings_; }
 
     /// \name Orders; each returns at once
     /// @{
@@ -77,6 +80,8 @@ public:
     void colour_by(scene::ColourBy by);
     void pick(std::optional<BodyId> id);
     void show_forces(bool forces);
+    /// Strikes are kept for take_strikes() from now on, or are not.
+    void hear(bool wanted);
     /// @}
 
     /// What was seen last.
@@ -84,6 +89,8 @@ public:
     [[nodiscard]] Status status() const;
     /// Rows since the last call; after a step back the first one is earlier than the last one before.
     [[nodiscard]] std::vector<PlotRow> take_rows();
+    /// Strikes since the last call, if they are wanted.
+    [[nodiscard]] std::vector<TimedStrike> take_strikes();
     /// Waits until all orders are done.
     void wait_until_idle();
 
@@ -103,11 +110,13 @@ private:
     World world_;
     double dt_;
     std::vector<Obstacle> obstacles_;
+    sound::SoundSettings sound_settings_;
     Spectator spectator_;
     History history_;
     std::optional<BodyId> picked_;
     LookAhead look_ahead_;
     bool forces_ = false;
+    bool hears_ = false;
     double step_seconds_ = 0;
     std::shared_ptr<Moment> spare_; ///< memory of a moment that nobody looks at any more
 
@@ -123,6 +132,7 @@ private:
     std::shared_ptr<Moment> moment_;
     Status status_;
     std::vector<PlotRow> rows_;
+    std::vector<TimedStrike> strikes_;
     std::thread thread_;
 };
 

@@ -74,6 +74,7 @@ std::optional<Key> key_of(int key) {
                                                                           {GLFW_KEY_2, Key::two},
                                                                           {GLFW_KEY_3, Key::three},
                                                                           {GLFW_KEY_P, Key::p},
+                                                                          {GLFW_KEY_M, Key::m},
                                                                           {GLFW_KEY_LEFT_SHIFT, Key::shift},
                                                                           {GLFW_KEY_RIGHT_SHIFT, Key::shift}}};
     for (const auto& [code, name] : keys) {
