@@ -1,5 +1,7 @@
 """carom view in a window of a display that nobody sees (Xvfb): a script uses it like a person and looks at what happens."""
 
+import ctypes
+import ctypes.util
 import json
 import os
 import pathlib
@@ -305,6 +307,38 @@ class View(CliTest):
             _, err = process.communicate(timeout=60)
             self.assertEqual((process.returncode, err), (code, ""))
             self.assertTrue(json.loads(self.settings.read_text())["cameras"])
+
+    def close_like_a_window_manager(self, title):
+        """Asks the window with this title to close."""
+        x = ctypes.CDLL(ctypes.util.find_library("X11"))
+        x.XOpenDisplay.restype = ctypes.c_void_p
+        x.XInternAtom.restype = ctypes.c_ulong
+        x.XDefaultRootWindow.restype = ctypes.c_ulong
+        display = ctypes.c_void_p(x.XOpenDisplay(f":{self.number}".encode()))
+        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
+        children = ctypes.POINTER(ctypes.c_ulong)()
+        x.XQueryTree(display, ctypes.c_ulong(x.XDefaultRootWindow(display)), ctypes.byref(root), ctypes.byref(parent),
+                     ctypes.byref(children), ctypes.byref(count))
+        for window in children[:count.value]:
+            name = ctypes.c_char_p()
+            x.XFetchName(display, ctypes.c_ulong(window), ctypes.byref(name))
+            if name.value != title.encode():
+                continue
+            # An XClientMessageEvent: type, serial, send_event, display, window, message, format, data.
+            protocols, delete = (x.XInternAtom(display, atom, 0) for atom in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
+            event = struct.pack("@iLiPLLi5L", 33, 0, 1, display.value, window, protocols, 32, delete, 0, 0, 0, 0)
+            x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.create_string_buffer(event, 192))
+        x.XCloseDisplay(display)
+
+    def test_its_window_is_closed(self):
+        process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
+        deadline = time.monotonic() + 60
+        while process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.5)
+            self.close_like_a_window_manager("carom: two_bodies.toml")
+        _, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (0, ""))
+        self.assertTrue(json.loads(self.settings.read_text())["cameras"])
 
     def test_without_display_or_graphics(self):
         scene = ROOT / "scenes/two_bodies.toml"

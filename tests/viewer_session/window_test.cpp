@@ -496,6 +496,26 @@ TEST(Sessions, SayHowFarTheyLag) {
     EXPECT_EQ(session.lag(), 0);
 }
 
+TEST(Sessions, RestartWithoutWaitingForAStep) {
+    const TemporaryFolder folder;
+    Session session(folder.write("two.toml", two_balls));
+    session.advance(1, true);
+    EXPECT_NEAR(session.time(), 2, 1e-9);
+    session.advance(1000, false); // 20 000 steps
+    session.restart();
+    session.restart();
+    int frames = 0;
+    while (session.moment()->era < 2 && ++frames < 10'000) {
+        session.advance(1e-3, false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(session.time(), 0);
+    EXPECT_EQ(session.status().steps, 0U); // it does not run to where it was
+    EXPECT_TRUE(session.plots().empty());
+    session.advance(0.5, true);
+    EXPECT_NEAR(session.time(), 1, 1e-9);
+}
+
 TEST(Sessions, PickShootAndChange) {
     const TemporaryFolder folder;
     Session session(folder.write("two.toml", two_balls));

@@ -22,6 +22,7 @@ struct Moment {
     std::shared_ptr<const std::vector<BodyId>> ids = std::make_shared<const std::vector<BodyId>>();
     std::shared_ptr<const std::vector<float>> radii = std::make_shared<const std::vector<float>>(); ///< m
     std::uint64_t version = 0;        ///< another one where ids or radii are others
+    std::uint64_t era = 0;            ///< how often the simulation was restarted before
     std::vector<Vec3> position;       ///< m, at the end
     std::vector<Vec3f> way;           ///< m, during the step, by the short way across periodic faces
     std::vector<std::uint32_t> looks; ///< PackedBody::look

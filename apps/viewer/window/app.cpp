@@ -40,10 +40,19 @@ void App::open(const std::filesystem::path& file) {
 
 void App::show(std::unique_ptr<Session> session) {
     remember_camera();
+    close_session();
     session_ = std::move(session);
     ears_.begin_scene(session_->sound_settings());
     const auto known = settings_.cameras.find(key_of(session_->file()));
     if (known != settings_.cameras.end()) session_->rig().set_camera(known->second);
+}
+
+/// Its step may be a slow one, which the window does not wait for.
+void App::close_session() {
+    using namespace std::chrono_literals;
+    std::erase_if(closing_, [](const auto& closing) { return closing.wait_for(0s) == std::future_status::ready; });
+    if (session_)
+        closing_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
 }
 
 void App::finish_opening() {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace carom::viewer {
 
@@ -44,6 +45,7 @@ public:
 
 private:
     void finish_opening();
+    void close_session();
     void remember_camera();
     void feed_interface(double seconds, int width, int height);
     void obey_keys();
@@ -66,6 +68,7 @@ private:
     Ears ears_;
     Stage empty_; ///< what is shown without a session
     std::future<std::unique_ptr<Session>> opening_;
+    std::vector<std::future<void>> closing_; ///< sessions that wait for the end of their last step
     int width_ = 1;
     int height_ = 1;
 };

@@ -179,7 +179,7 @@ void Panels::draw_sound(PanelState& state) {
     ImGui::SetNextItemWidth(width);
     slider("volume", state.volume, 0, 1, "%.2f");
     widgets_["volume"].z = width;
-    ImGui::SameLine(width + 83);
+    ImGui::SameLine(0, 30);
     check("mute", state.muted);
 }
 

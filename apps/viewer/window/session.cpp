@@ -106,29 +106,40 @@ void Session::find_home(const scene::CameraSpec& spec) {
 }
 
 void Session::advance(double seconds, bool wait) {
-    if (!paused_ && seconds > 0) {
-        const double wanted = clock_ + seconds * time_scale;
-        // What the next frame will show is computed while this one is drawn.
-        simulation_->run_to(wait ? wanted : wanted + seconds * time_scale);
-        if (wait) simulation_->wait_until_idle();
-        // The world is computed up to the moment's end; one that is not there yet is not waited for.
-        const double before = clock_;
-        clock_ = std::min(wanted, std::max(clock_, simulation_->moment()->end));
-        lag_ += wanted - clock_;
-        constexpr double newest = 0.05; // of the mean
-        reached_ += ((clock_ - before) / seconds - reached_) * newest;
+    if (wait) simulation_->wait_until_idle();
+    show_now();
+    const bool restarting = moment_->era != era_;
+    if (!paused_ && !restarting && seconds > 0) {
+        go_on(seconds, wait);
     } else {
-        if (wait) simulation_->wait_until_idle();
         lag_ = 0;
     }
     show_now();
     take_plots();
 }
 
+void Session::go_on(double seconds, bool wait) {
+    const double wanted = clock_ + seconds * time_scale;
+    // What the next frame will show is computed while this one is drawn.
+    simulation_->run_to(wait ? wanted : wanted + seconds * time_scale);
+    if (wait) simulation_->wait_until_idle();
+    // The world is computed up to the moment's end; one that is not there yet is not waited for.
+    const double before = clock_;
+    clock_ = std::min(wanted, std::max(clock_, simulation_->moment()->end));
+    lag_ += wanted - clock_;
+    constexpr double newest = 0.05; // of the mean
+    reached_ += ((clock_ - before) / seconds - reached_) * newest;
+}
+
 /// While paused the picture is that of the last step or change.
 void Session::show_now() {
+    const bool is_new_era = moment_->era != simulation_->moment()->era;
     moment_ = simulation_->moment();
-    if (paused_ || clock_ > moment_->end) clock_ = moment_->end;
+    if (is_new_era) {
+        rows_.clear();
+        stage_.restart();
+    }
+    if (paused_ || is_new_era || clock_ > moment_->end) clock_ = moment_->end;
 }
 
 void Session::take_plots() {
@@ -152,11 +163,7 @@ void Session::step_back() {
 
 void Session::restart() {
     simulation_->restart();
-    simulation_->wait_until_idle();
-    moment_ = simulation_->moment();
-    clock_ = moment_->end;
-    rows_.clear();
-    stage_.restart();
+    ++era_;
 }
 
 const Drawing& Session::draw() {

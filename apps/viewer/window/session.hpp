@@ -99,6 +99,7 @@ private:
     void open_scene(const std::filesystem::path& file);
     void open_snapshot(const std::filesystem::path& file);
     void find_home(const scene::CameraSpec& spec);
+    void go_on(double seconds, bool wait);
     void show_now();
     void take_plots();
 
@@ -114,6 +115,7 @@ private:
     double clock_ = 0;
     double lag_ = 0;
     double reached_ = 0;
+    std::uint64_t era_ = 0; ///< of the moments to show: earlier ones are from before a restart
     bool paused_ = false;
     std::optional<BodyId> picked_;
     scene::ColourBy colour_by_ = scene::ColourBy::material;

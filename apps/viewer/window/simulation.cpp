@@ -124,6 +124,7 @@ void Simulation::do_step() {
 void Simulation::publish() {
     if (picked_ && !world_.contains(*picked_)) picked_.reset();
     std::shared_ptr<Moment> next = spectator_.look(world_, forces_, std::move(spare_));
+    next->era = era_;
     Status status;
     status.time = world_.time();
     status.steps = world_.step_count();
@@ -182,6 +183,7 @@ void Simulation::restart() {
     add_order([this](World& /*world*/) {
         set_back(history_.start());
         history_ = History(world_, most_history, steps_between_snapshots);
+        ++era_;
     });
 }
 

@@ -74,7 +74,7 @@ public:
     void run_to(double time); ///< s
     void step();
     void step_back();
-    void restart();
+    void restart(); ///< Moment::era tells when it is done
     /// Runs between two steps. What it throws becomes Status::problem.
     void change(std::function<void(World&)> order);
     void colour_by(scene::ColourBy by);
@@ -117,6 +117,7 @@ private:
     LookAhead look_ahead_;
     bool forces_ = false;
     bool hears_ = false;
+    std::uint64_t era_ = 0; ///< restarts so far
     double step_seconds_ = 0;
     std::shared_ptr<Moment> spare_; ///< memory of a moment that nobody looks at any more
 
