@@ -7,6 +7,7 @@
 #include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
 #include "viewer/window/next_impact.hpp"
+#include "viewer/window/pace.hpp"
 #include "viewer/window/picking.hpp"
 #include "viewer/window/session.hpp"
 #include "viewer/window/settings.hpp"
@@ -19,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -172,6 +174,17 @@ TEST(Simulations, AnswerWhileAStepIsSlow) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(250));
     simulation.wait_until_idle();
     EXPECT_EQ(simulation.status().steps, 4U);
+}
+
+TEST(Frames, ComeAtMostSixtyTimesASecondAndCostNothingInBetween) {
+    constexpr int frames = 30;
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
+    for (int i = 0; i < frames; ++i) pace(std::chrono::steady_clock::now());
+    const auto passed = std::chrono::steady_clock::now() - start;
+    EXPECT_GE(passed, frames * frame_time);
+    EXPECT_LT(static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC,
+              0.2 * std::chrono::duration<double>(passed).count());
 }
 
 // What comes next -----------------------------------------------------------------------------------------------------

@@ -65,7 +65,8 @@ std::vector<std::int16_t> SoundTrack::excerpt(double seconds) const {
 }
 
 void SoundTrack::write_wav(const std::filesystem::path& file) const {
-    const double seconds = static_cast<double>(samples_.size() / 2) / rate_;
+    const std::size_t frames = samples_.size() / 2;
+    const double seconds = static_cast<double>(frames) / rate_;
     try {
         scene::write_file(file, wav_file(excerpt(seconds), rate_));
     } catch (const Error& error) {
