@@ -92,6 +92,9 @@ TEST_F(Pictures, LinesAreHiddenUnlessTheyAreOnTop) {
     std::swap(drawing.picture.lines, drawing.picture.lines_on_top);
     image = draw(drawing.finished());
     EXPECT_GT(redness(image, 50), 100);
+    drawing.picture.line_scale = 0.5F;
+    drawing.picture.lines_on_top.front().width = 6;
+    EXPECT_EQ(draw(drawing.finished()).pixels, image.pixels);
     // Behind the camera, and across its plane.
     drawing.picture.lines_on_top = {{{0, -9, 0}, {1, -12, 0}, 3, red, red},
                                     {{0.2F, -12, 0}, {0.2F, 3, 0}, 3, red, red}};

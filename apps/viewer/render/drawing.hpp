@@ -103,6 +103,7 @@ struct Drawing {
     std::uint64_t palette_version = 0; ///< the same for the palette
     std::vector<Line> lines{};         ///< hidden by what is in front of them
     std::vector<Line> lines_on_top{};  ///< seen through everything
+    float line_scale = 1;              ///< that widths of lines are multiplied by
     std::vector<Panel> panels{};
     std::optional<Hollow> hollow{};
     Shapes shapes{};

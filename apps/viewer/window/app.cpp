@@ -81,6 +81,7 @@ Settings App::settings(int width, int height) {
 }
 
 void App::frame(double seconds, int width, int height) {
+    const auto begin = std::chrono::steady_clock::now();
     constexpr double newest = 0.05; // of the mean
     state_.frame_seconds += (seconds - state_.frame_seconds) * newest;
     width_ = std::max(width, 1);
@@ -104,8 +105,18 @@ void App::frame(double seconds, int width, int height) {
         hear(before, seconds);
     }
     input_.next_frame();
+    const bool still = stands_still();
+    state_.divisor = state_.fine || lockstep_ || still ? 1 : detail_.divisor();
     draw_picture(width_, height_);
     screen_.present(width_, height_);
+    if (!still) detail_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+bool App::stands_still() const {
+    if (!session_ || !session_->paused()) return false;
+    const Camera& camera = session_->rig().camera();
+    return session_->moment() == last_moment_.lock() && camera.position == last_camera_.position &&
+           camera.target == last_camera_.target;
 }
 
 void App::feed_interface(double seconds, int width, int height) {
@@ -198,7 +209,11 @@ void App::draw_picture(int width, int height) {
     Drawing& settings = session_->stage().settings();
     settings.shadows = state_.shadows;
     settings.occlusion = state_.shadows;
-    renderer.draw(session_->draw(), {width, height, supersample});
+    settings.line_scale = 1 / static_cast<float>(state_.divisor);
+    const Drawing& drawing = session_->draw();
+    renderer.draw(drawing, {std::max(width / state_.divisor, 1), std::max(height / state_.divisor, 1), supersample});
+    last_camera_ = drawing.camera;
+    last_moment_ = session_->moment();
 }
 
 std::map<std::string, double> App::facts() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/render/renderer.hpp"
+#include "viewer/window/detail.hpp"
 #include "viewer/window/ears.hpp"
 #include "viewer/window/input.hpp"
 #include "viewer/window/panels.hpp"
@@ -52,6 +53,8 @@ private:
     void obey_key(Key key);
     void obey_mouse(double seconds);
     void draw_picture(int width, int height);
+    /// What is shown is what the last picture showed.
+    [[nodiscard]] bool stands_still() const;
     /// What has happened from `before` (s of the world) to what is shown now, in `seconds` of the wall clock.
     void hear(double before, double seconds);
     void set_sound();
@@ -66,6 +69,9 @@ private:
     PanelState state_;
     std::unique_ptr<Session> session_;
     Ears ears_;
+    Detail detail_;
+    Camera last_camera_;
+    std::weak_ptr<const Moment> last_moment_;
     Stage empty_; ///< what is shown without a session
     std::future<std::unique_ptr<Session>> opening_;
     std::vector<std::future<void>> closing_; ///< sessions that wait for the end of their last step

@@ -345,7 +345,8 @@ void Panels::draw_help(PanelState& state) {
     }
     ImGui::Separator();
     ImGui::TextDisabled("%s", state.device.c_str());
-    ImGui::TextDisabled("a frame takes %.1f ms", 1e3 * state.frame_seconds);
+    ImGui::TextDisabled("a frame takes %.1f ms, at 1/%d of the window's size", 1e3 * state.frame_seconds,
+                        state.divisor);
     ImGui::End();
 }
 

@@ -20,6 +20,7 @@ struct PanelState {
     bool help = false;
     bool browser = false;
     bool fine = true; ///< several samples for each pixel
+    int divisor = 1;  ///< the window is so many times as wide and high as its picture
     bool shadows = true;
     double volume = 1; ///< 0 to 1
     bool muted = false;

@@ -193,9 +193,9 @@ void GlRenderer::draw(const Drawing& drawing, const PictureSize& size) {
     light_surfaces();
     glEnable(GL_DEPTH_TEST);
     draw_glass(drawing.shapes);
-    draw_lines(drawing.lines);
+    draw_lines(drawing.lines, drawing.line_scale);
     glDisable(GL_DEPTH_TEST);
-    draw_lines(drawing.lines_on_top);
+    draw_lines(drawing.lines_on_top, drawing.line_scale);
     glBindTextureUnit(0, targets_->light.get());
     draw_screen(programs_.resolve, targets_->resolving, size.width, size.height);
     count_errors();
@@ -325,12 +325,12 @@ void GlRenderer::light_surfaces() {
     draw_screen(programs_.light, targets_->lighting, targets_->width, targets_->height);
 }
 
-void GlRenderer::draw_lines(const std::vector<Line>& lines) {
+void GlRenderer::draw_lines(const std::vector<Line>& lines, float scale) {
     if (lines.empty()) return;
     std::vector<LineBlock> blocks;
     blocks.reserve(lines.size());
     for (const Line& line : lines) {
-        blocks.push_back({{line.from.x, line.from.y, line.from.z, line.width},
+        blocks.push_back({{line.from.x, line.from.y, line.from.z, line.width * scale},
                           {line.to.x, line.to.y, line.to.z, 0},
                           linear(line.colour_from),
                           linear(line.colour_to)});

@@ -65,7 +65,7 @@ private:
     void find_occlusion();
     void light_surfaces();
     void begin_blending();
-    void draw_lines(const std::vector<Line>& lines);
+    void draw_lines(const std::vector<Line>& lines, float scale);
     void draw_screen(const ProgramHandle& program, const FramebufferHandle& target, int width, int height);
 
     std::unique_ptr<Context> context_; ///< ends last
