@@ -13,6 +13,7 @@ import unittest
 from carom_cli import GAS, ROOT, CliTest, figure
 
 HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
+SILENT = () if HAS_SOUND else ("--no-sound",)
 
 SPIN = """
 [run]
@@ -41,7 +42,7 @@ class Render(CliTest):
         self.write("spin.toml", SPIN)
 
     def render(self, *arguments, **options):
-        return self.carom("render", *arguments, **options)
+        return self.carom("render", *arguments, *SILENT, **options)
 
     def refused_render(self, *arguments, expect=2, **options):
         """Checks that it fails with a message and leaves no file; returns the message."""
@@ -131,6 +132,12 @@ class Render(CliTest):
         self.render(ROOT / "scenes/newtons_cradle.toml", "-o", "b.mp4", "--size", "32x18", "--time", 1, "--no-sound")
         self.assertEqual(self.seconds_of_sound("b.mp4"), [])
 
+    @unittest.skipIf(HAS_SOUND, "built with OpenAL Soft")
+    def test_films_of_a_build_without_sound(self):
+        _, err = self.carom("render", "spin.toml", "-o", "a.mp4", "--size", "64x48", expect=1)
+        self.assertIn("sound: this build of carom has none", err)
+        self.render("spin.toml", "-o", "a.mp4", "--size", "64x48", "--fps", 2)
+
     def test_bad_usage(self):
         self.assertIn(".png", self.refused_render("gas.toml", "-o", "a.gif"))
         self.assertIn("--output is required", self.refused_render("gas.toml"))
@@ -191,7 +198,8 @@ class Render(CliTest):
 
     def test_interrupts(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
-            process = self.start("render", ROOT / "scenes/gas.toml", "-o", "a.mp4", "--size", "64x48", "--time", 1000)
+            process = self.start("render", ROOT / "scenes/gas.toml", "-o", "a.mp4", "--size", "64x48", "--time", 1000,
+                                 *SILENT)
             deadline = time.monotonic() + 60
             while not (self.folder / "a.mp4.part").exists() and time.monotonic() < deadline:
                 time.sleep(0.02)
