@@ -286,7 +286,8 @@ void Panels::draw_scale(const Session& session) {
 void Panels::draw_browser(Browser& browser, PanelState& state, std::optional<std::filesystem::path>& chosen) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     constexpr float cell = Browser::thumbnail_width + 18.0F;
-    const float width = std::clamp(std::floor((size.x - control_width - 40) / cell), 1.0F, 4.0F) * cell + 24;
+    const float width = std::clamp(std::floor((size.x - control_width - 40) / cell), 1.0F, 4.0F) * cell + 24 +
+                        ImGui::GetStyle().ScrollbarSize;
     ImGui::SetNextWindowPos({control_width + 2 * margin, margin}, ImGuiCond_Appearing);
     ImGui::SetNextWindowSize({width, std::min(size.y - 2 * margin, 540.0F)}, ImGuiCond_Appearing);
     ImGui::Begin("scenes", &state.browser);
@@ -345,8 +346,8 @@ void Panels::draw_help(PanelState& state) {
     }
     ImGui::Separator();
     ImGui::TextDisabled("%s", state.device.c_str());
-    ImGui::TextDisabled("a frame takes %.1f ms, at 1/%d of the window's size", 1e3 * state.frame_seconds,
-                        state.divisor);
+    const std::string coarse = state.divisor > 1 ? fmt::format(", drawn at 1/{} of its size", state.divisor) : "";
+    ImGui::TextDisabled("a frame takes %.1f ms%s", 1e3 * state.frame_seconds, coarse.c_str());
     ImGui::End();
 }
 
