@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Draws a picture of every scene, and a short film of some, into docs/gallery, with a page that says what they cost.
 
-usage: tools/gallery.py [SCENE]...     (names of scenes; all of them by default)
+usage: tools/gallery.py [--figures] [SCENE]...     (names of scenes; all of them by default)
 
-The figures of scenes that are not named stay as they are.
+With --figures only what they cost is measured anew, on a machine that has nothing else to do. The figures of scenes
+that are not named stay as they are.
 """
 
 import json
@@ -22,7 +23,7 @@ PAGE = GALLERY / "README.md"
 FIGURES = GALLERY / "figures.json"
 PICTURE = ("--size", "720x405", "--supersample", "3")
 # Films, and how many seconds of the world they show.
-FILMS = {"heap": 8, "newtons_cradle": 12, "tower": 4}
+FILMS = {"heap": 8, "hopper": 3, "newtons_cradle": 12, "tower": 4}
 FILM = ("--size", "480x270", "--fps", "24", "--supersample", "2")
 
 
@@ -38,10 +39,14 @@ def carom(*arguments):
 
 
 def draw(scene):
-    """Draws a scene, and runs it as it is. Returns what the run took."""
+    """Draws a scene, and makes a film of it if it is to have one."""
     carom("render", scene, "-o", GALLERY / f"{scene.stem}.png", *PICTURE)
     if scene.stem in FILMS:
         carom("render", scene, "-o", GALLERY / f"{scene.stem}.mp4", "--time", FILMS[scene.stem], *FILM)
+
+
+def measure(scene):
+    """Runs a scene as it is. Returns what the run took."""
     with tempfile.TemporaryDirectory() as folder:
         run = json.loads(carom("run", scene, "--out", folder, "--json"))
     return {"bodies": run["bodies"], "steps": run["steps"], "impacts": run["impacts"],
@@ -73,7 +78,8 @@ def entry(scene, figures):
 
 def main():
     scenes = sorted((ROOT / "scenes").glob("*.toml"))
-    names = sys.argv[1:] or [scene.stem for scene in scenes]
+    only_figures = "--figures" in sys.argv
+    names = [name for name in sys.argv[1:] if name != "--figures"] or [scene.stem for scene in scenes]
     if unknown := set(names) - {scene.stem for scene in scenes}:
         sys.exit(f"gallery: no scene {', '.join(sorted(unknown))}")
     GALLERY.mkdir(parents=True, exist_ok=True)
@@ -81,7 +87,9 @@ def main():
     for scene in scenes:
         if scene.stem in names:
             print(f"   {scene.stem}", flush=True)
-            figures[scene.stem] = draw(scene)
+            if not only_figures:
+                draw(scene)
+            figures[scene.stem] = measure(scene)
     figures = {scene.stem: figures[scene.stem] for scene in scenes if scene.stem in figures}
     FIGURES.write_text(json.dumps(figures, indent=4) + "\n", encoding="utf-8")
     page = ("# The scenes\n\nDrawn by `./dev gallery` with `carom render`, each as its `[camera]` and `[picture]` say. "

@@ -29,6 +29,7 @@ struct RenderCommandOptions {
     std::optional<double> time_scale;
     std::optional<std::uint64_t> supersample;
     std::optional<std::uint64_t> threads;
+    bool no_sound = false;
 };
 
 /// Larger than any graphics card draws.
@@ -56,6 +57,7 @@ viewer::RenderOptions read_options(const RenderCommandOptions& options) {
     }
     result.size.supersample = static_cast<int>(options.supersample.value_or(2));
     result.fps = options.fps.value_or(30);
+    result.sound = !options.no_sound;
     if (result.fps > 1000) throw UsageError(fmt::format("--fps must be at most 1000, not {}", result.fps));
     return result;
 }
@@ -146,6 +148,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
         ->add_option("--colour-by", options->colour_by,
                      fmt::format("{} (default: the scene's)", fmt::join(scene::colour_names, ", ")))
         ->type_name("WHAT");
+    command->add_flag("--no-sound", options->no_sound, "a film without the sound of its impacts");
     add_threads(*command, options->threads);
     command->footer("Needs no window and no display. The same command draws the same picture again. A file appears\n"
                     "whole or not at all. Films need ffmpeg. Sound takes --time and --threads alone.");

@@ -1,14 +1,19 @@
 """carom render: pictures and films are whole, repeatable and of the size asked for, and what is missing is named."""
 
+import array
 import os
 import re
+import resource
 import signal
 import struct
 import subprocess
 import time
 import unittest
 
-from carom_cli import GAS, ROOT, CliTest
+from carom_cli import GAS, ROOT, CliTest, figure
+
+HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
+SILENT = () if HAS_SOUND else ("--no-sound",)
 
 SPIN = """
 [run]
@@ -37,7 +42,7 @@ class Render(CliTest):
         self.write("spin.toml", SPIN)
 
     def render(self, *arguments, **options):
-        return self.carom("render", *arguments, **options)
+        return self.carom("render", *arguments, *SILENT, **options)
 
     def refused_render(self, *arguments, expect=2, **options):
         """Checks that it fails with a message and leaves no file; returns the message."""
@@ -54,13 +59,13 @@ class Render(CliTest):
 
     def probe(self, name):
         """Width, height, frames a second and number of frames of a film."""
-        command = ["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+        command = ["ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-show_entries",
                    "stream=width,height,r_frame_rate,nb_read_frames", "-of", "csv=p=0", name]
         return subprocess.run(command, cwd=self.folder, text=True, capture_output=True, check=True).stdout.strip()
 
     def frames(self, name):
         """A checksum of each frame of a film."""
-        command = ["ffmpeg", "-v", "error", "-i", name, "-f", "framemd5", "-"]
+        command = ["ffmpeg", "-v", "error", "-i", name, "-map", "0:v", "-f", "framemd5", "-"]
         text = subprocess.run(command, cwd=self.folder, text=True, capture_output=True, check=True).stdout
         return re.findall(r"[0-9a-f]{32}", text)
 
@@ -93,6 +98,46 @@ class Render(CliTest):
         self.assertEqual(self.probe("c.mp4"), "64,48,10/1,5")
         self.assertEqual(self.files(), ["a.mp4", "b.mp4", "c.mp4", "gas.toml", "spin.toml"])
 
+    def seconds_of_sound(self, name):
+        """How long each stream of sound of a film is."""
+        command = ["ffprobe", "-v", "error", "-select_streams", "a", "-show_entries", "stream=duration", "-of", "csv=p=0",
+                   name]
+        text = subprocess.run(command, cwd=self.folder, text=True, capture_output=True, check=True).stdout
+        return [float(line) for line in text.split()]
+
+    def onsets(self, name):
+        """s: where a millisecond of a film's sound is three times as loud as any of the 20 ms before, and no whisper."""
+        command = ["ffmpeg", "-v", "error", "-i", name, "-f", "s16le", "-ac", "1", "-ar", "48000", "-"]
+        data = subprocess.run(command, cwd=self.folder, capture_output=True, check=True).stdout
+        samples = array.array("h", data)
+        levels = [max(map(abs, samples[i:i + 48])) for i in range(0, len(samples) - 47, 48)]
+        rising = [i for i in range(20, len(levels)) if levels[i] > 100 and levels[i] > 3 * max(levels[i - 20:i])]
+        return [i / 1000 for k, i in enumerate(rising) if k == 0 or i > rising[k - 1] + 5]
+
+    @unittest.skipUnless(HAS_SOUND, "built without OpenAL Soft")
+    def test_films_are_heard(self):
+        # A second of the film is two of the world.
+        self.render(ROOT / "scenes/newtons_cradle.toml", "-o", "a.mp4", "--size", "32x18", "--fps", 20, "--supersample", 1,
+                    "--time", 22, "--time-scale", 2)
+        self.assertEqual(self.probe("a.mp4"), "32,18,20/1,220")
+        (seconds,) = self.seconds_of_sound("a.mp4")
+        self.assertAlmostEqual(seconds, 11, delta=0.001)
+        # At 1 m/s: 2 m to the others, 4.5 m to the wall and back, 2.5 m to the other wall and back, and so on.
+        clicks = [2, 6.5, 11, 13.5, 16, 20.5]
+        heard = self.onsets("a.mp4")
+        self.assertEqual(len(heard), len(clicks), f"{heard} {clicks}")
+        worst = max(abs(2 * at - click) for at, click in zip(heard, clicks)) / 2
+        self.assertLess(worst, 0.005)
+        figure(f"Newton's cradle in a film, clicks heard at most {1000 * worst:.1f} ms from their impacts")
+        self.render(ROOT / "scenes/newtons_cradle.toml", "-o", "b.mp4", "--size", "32x18", "--time", 1, "--no-sound")
+        self.assertEqual(self.seconds_of_sound("b.mp4"), [])
+
+    @unittest.skipIf(HAS_SOUND, "built with OpenAL Soft")
+    def test_films_of_a_build_without_sound(self):
+        _, err = self.carom("render", "spin.toml", "-o", "a.mp4", "--size", "64x48", expect=1)
+        self.assertIn("sound: this build of carom has none", err)
+        self.render("spin.toml", "-o", "a.mp4", "--size", "64x48", "--fps", 2)
+
     def test_bad_usage(self):
         self.assertIn(".png", self.refused_render("gas.toml", "-o", "a.gif"))
         self.assertIn("--output is required", self.refused_render("gas.toml"))
@@ -124,6 +169,25 @@ class Render(CliTest):
         message = self.refused_render(*film, expect=1, env=dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}"))
         self.assertIn("a.mp4: ffmpeg has failed: strange codec", message)
 
+    def test_a_disk_that_is_full(self):
+        # Files may not grow beyond so many bytes: fewer than the pictures take, or than pictures and sound do.
+        def full_at(size):
+            def prepare():
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+            return prepare
+
+        film = ("spin.toml", "-o", "a.mp4", "--size", "320x180", "--fps", 10)
+        self.render(*film, "--no-sound")
+        silent = len(self.read("a.mp4"))
+        (self.folder / "a.mp4").unlink()
+        self.assertGreater(silent, 5000)
+        for size in (1000, silent + 100) if HAS_SOUND else (1000,):
+            before = self.files()
+            _, message = self.render(*film, expect=1, preexec_fn=full_at(size))
+            self.assertRegex(message, r"carom: a\.mp4: ffmpeg has failed: .*File too large") # and what the driver says
+            self.assertEqual(self.files(), before)
+
     def test_missing_or_old_graphics(self):
         picture = ("gas.toml", "-o", "a.png", "--size", "16x16", "--time", 0.1)
         old = dict(os.environ, MESA_GL_VERSION_OVERRIDE="3.3", LIBGL_ALWAYS_SOFTWARE="1")
@@ -134,7 +198,8 @@ class Render(CliTest):
 
     def test_interrupts(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
-            process = self.start("render", ROOT / "scenes/gas.toml", "-o", "a.mp4", "--size", "64x48", "--time", 1000)
+            process = self.start("render", ROOT / "scenes/gas.toml", "-o", "a.mp4", "--size", "64x48", "--time", 1000,
+                                 *SILENT)
             deadline = time.monotonic() + 60
             while not (self.folder / "a.mp4.part").exists() and time.monotonic() < deadline:
                 time.sleep(0.02)

@@ -1,5 +1,7 @@
 """carom view in a window of a display that nobody sees (Xvfb): a script uses it like a person and looks at what happens."""
 
+import ctypes
+import ctypes.util
 import json
 import os
 import pathlib
@@ -11,9 +13,10 @@ import time
 import unittest
 import zlib
 
-from carom_cli import ROOT, CliTest
+from carom_cli import GAS, ROOT, CliTest
 
 WIDTH, HEIGHT = 640, 460
+HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
 REFERENCE = ROOT / "tests/data/pictures/window.png"
 
 
@@ -66,7 +69,8 @@ class View(CliTest):
         (self.config / "carom").mkdir(parents=True)
         self.settings = self.config / "carom/view.json"
         self.settings.write_text(json.dumps({"width": WIDTH, "height": HEIGHT, "cameras": {}}))
-        self.environment = dict(os.environ, DISPLAY=f":{self.number}", XDG_CONFIG_HOME=str(self.config))
+        self.environment = dict(os.environ, DISPLAY=f":{self.number}", XDG_CONFIG_HOME=str(self.config),
+                                ALSOFT_DRIVERS="null")  # a sound device that nobody hears
 
     def script(self, text):
         """Text of a script, with what must hold at the end of each."""
@@ -180,6 +184,42 @@ class View(CliTest):
             expect steps < 10
         """)
 
+    @unittest.skipUnless(HAS_SOUND, "built without OpenAL Soft")
+    def test_impacts_are_heard(self):
+        self.write("gas.toml", GAS)
+        self.view("gas.toml", """
+            wait 30
+            expect audible = 1
+            expect silence = 0
+            wait 30
+            expect strikes_heard > 10
+            press volume 0.5
+            wait 2
+            expect volume > 0.4
+            expect volume < 0.6
+            key m
+            wait 1
+            expect volume = 0
+        """)
+        kept = json.loads(self.settings.read_text())
+        self.assertTrue(kept["muted"])
+        self.assertAlmostEqual(kept["volume"], 0.5, delta=0.1)
+        self.view("gas.toml", "wait 2\nexpect volume = 0\nkey m\nwait 1\nexpect volume > 0.4\n")
+
+    def test_without_a_sound_device(self):
+        self.environment["ALSOFT_DRIVERS"] = "wave"  # writes to a file that nobody has named
+        self.write("gas.toml", GAS)
+        self.view("gas.toml", """
+            wait 30
+            expect audible = 0
+            expect silence = 1
+            expect steps > 10
+            press Retry
+            wait 30
+            expect silence = 1
+            expect strikes_heard = 0
+        """)
+
     def test_looks_as_it_did(self):
         self.write("calm.toml", """
             title = "Calm"
@@ -267,6 +307,38 @@ class View(CliTest):
             _, err = process.communicate(timeout=60)
             self.assertEqual((process.returncode, err), (code, ""))
             self.assertTrue(json.loads(self.settings.read_text())["cameras"])
+
+    def close_like_a_window_manager(self, title):
+        """Asks the window with this title to close."""
+        x = ctypes.CDLL(ctypes.util.find_library("X11"))
+        x.XOpenDisplay.restype = ctypes.c_void_p
+        x.XInternAtom.restype = ctypes.c_ulong
+        x.XDefaultRootWindow.restype = ctypes.c_ulong
+        display = ctypes.c_void_p(x.XOpenDisplay(f":{self.number}".encode()))
+        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
+        children = ctypes.POINTER(ctypes.c_ulong)()
+        x.XQueryTree(display, ctypes.c_ulong(x.XDefaultRootWindow(display)), ctypes.byref(root), ctypes.byref(parent),
+                     ctypes.byref(children), ctypes.byref(count))
+        for window in children[:count.value]:
+            name = ctypes.c_char_p()
+            x.XFetchName(display, ctypes.c_ulong(window), ctypes.byref(name))
+            if name.value != title.encode():
+                continue
+            # An XClientMessageEvent: type, serial, send_event, display, window, message, format, data.
+            protocols, delete = (x.XInternAtom(display, atom, 0) for atom in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
+            event = struct.pack("@iLiPLLi5L", 33, 0, 1, display.value, window, protocols, 32, delete, 0, 0, 0, 0)
+            x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.create_string_buffer(event, 192))
+        x.XCloseDisplay(display)
+
+    def test_its_window_is_closed(self):
+        process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
+        deadline = time.monotonic() + 60
+        while process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.5)
+            self.close_like_a_window_manager("carom: two_bodies.toml")
+        _, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (0, ""))
+        self.assertTrue(json.loads(self.settings.read_text())["cameras"])
 
     def test_without_display_or_graphics(self):
         scene = ROOT / "scenes/two_bodies.toml"

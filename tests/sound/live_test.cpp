@@ -1,3 +1,4 @@
+#include "room.hpp"
 #include "viewer/sound/sound_stage.hpp"
 
 #include <gtest/gtest.h>
@@ -14,86 +15,12 @@ namespace carom::sound {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// What is said to a speaker of the test, and what it tells.
-struct Room {
-    std::mutex mutex;
-    std::vector<float> heard; ///< all that any speaker took
-    std::size_t wanted = 0;   ///< samples that are asked for
-    bool plugged = true;      ///< there is a device
-    int opened = 0;           ///< how often it was opened
-};
-
-/// Takes samples as fast as the test asks for them.
-class FakeSpeaker : public Speaker {
-public:
-    explicit FakeSpeaker(Room& room) : room_(room) {}
-    bool has_room() override {
-        const std::scoped_lock lock(room_.mutex);
-        return room_.heard.size() < room_.wanted;
-    }
-    void take(std::span<const float> samples) override {
-        const std::scoped_lock lock(room_.mutex);
-        room_.heard.insert(room_.heard.end(), samples.begin(), samples.end());
-    }
-    bool connected() override {
-        const std::scoped_lock lock(room_.mutex);
-        return room_.plugged;
-    }
-
-private:
-    Room& room_;
-};
-
-OpenSpeaker speaker_in(Room& room) {
-    return [&room](int) -> std::unique_ptr<Speaker> {
-        const std::scoped_lock lock(room.mutex);
-        if (!room.plugged) throw Error(ErrorCode::not_available, "sound", "there is no sound device");
-        ++room.opened;
-        return std::make_unique<FakeSpeaker>(room);
-    };
-}
-
-/// Waits until `condition` holds, for at most ten seconds.
-template <class Condition>
-bool eventually(const Condition& condition) {
-    for (int i = 0; i < 5000; ++i) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(2ms);
-    }
-    return false;
-}
-
-/// Lets `seconds` of sound pass.
-void pass(Room& room, double seconds) {
-    std::size_t wanted = 0;
-    {
-        const std::scoped_lock lock(room.mutex);
-        room.wanted += 2 * static_cast<std::size_t>(std::lround(seconds * 48000));
-        wanted = room.wanted;
-    }
-    ASSERT_TRUE(eventually([&] {
-        const std::scoped_lock lock(room.mutex);
-        return room.heard.size() >= wanted;
-    }));
-}
-
-void plug(Room& room, bool plugged) {
-    const std::scoped_lock lock(room.mutex);
-    room.plugged = plugged;
-}
-
-/// s: when left rises after silence.
-std::vector<double> onsets(const Room& room) {
-    std::vector<double> times;
-    std::size_t quiet = 4800;
-    for (std::size_t i = 0; i < room.heard.size(); i += 2) {
-        const bool sounds = std::abs(room.heard[i]) > 0.01F;
-        if (sounds && quiet >= 2400) times.push_back(static_cast<double>(i) / 96000);
-        quiet = sounds ? 0 : quiet + 1;
-    }
-    return times;
-}
+using test::eventually;
+using test::onsets;
+using test::pass;
+using test::plug;
+using test::Room;
+using test::speaker_in;
 
 /// A thud that is over after a few milliseconds.
 const Strike thud{.position = {0, 1, 0}, .restitution = 0};
@@ -193,6 +120,103 @@ TEST(LiveSound, ListensFromWhereItWasPutBeforeTheDeviceCame) {
         right += std::abs(static_cast<double>(room.heard[i + 1]));
     }
     EXPECT_GT(right, 100 * left);
+}
+
+/// The largest sample of the last `seconds`.
+float loudness(const Room& room, double seconds) {
+    float largest = 0;
+    const auto count = std::min(room.heard.size(), 2 * static_cast<std::size_t>(seconds * 48000));
+    for (std::size_t i = room.heard.size() - count; i < room.heard.size(); ++i) {
+        largest = std::max(largest, std::abs(room.heard[i]));
+    }
+    return largest;
+}
+
+TEST(LiveSound, IsAsLoudAsTheVolumeSays) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    std::vector<float> loud;
+    for (const double volume : {1.0, 0.5, 0.0, 1.0}) {
+        sound.set_volume(volume);
+        pass(room, 0.1);
+        sound.play({&thud, 1}, 0.01);
+        pass(room, 0.2);
+        loud.push_back(loudness(room, 0.2));
+    }
+    EXPECT_GT(loud[0], 0.1F);
+    EXPECT_NEAR(loud[1], loud[0] / 2, 1e-3F);
+    EXPECT_EQ(loud[2], 0);
+    EXPECT_NEAR(loud[3], loud[0], 1e-3F);
+    EXPECT_THROW(sound.set_volume(1.1), Error);
+    EXPECT_THROW(sound.set_volume(std::nan("")), Error);
+}
+
+TEST(LiveSound, ChangesItsVolumeWithoutAClick) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    Strike ring{.position = {0, 1, 0}, .mass = 512}; // at 110 Hz, for a quarter of a second
+    sound.play({&ring, 1}, 0.01);
+    pass(room, 0.1);
+    sound.set_volume(0);
+    pass(room, 0.1);
+    float jump = 0;
+    for (std::size_t i = 2; i < room.heard.size(); ++i) {
+        if (i > 9600) jump = std::max(jump, std::abs(room.heard[i] - room.heard[i - 2]));
+    }
+    EXPECT_LT(jump, 0.02F); // 110 Hz and its modes at a quarter of full scale move by 0.008 from sample to sample
+    EXPECT_EQ(room.heard.back(), 0);
+}
+
+TEST(LiveSound, BeginsAnotherSceneInSilence) {
+    Room room;
+    LiveSound sound({}, speaker_in(room));
+    ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+    Strike ring{.position = {0, 1, 0}, .mass = 512};
+    sound.play({&ring, 1}, 0.01);
+    pass(room, 0.1);
+    EXPECT_GT(loudness(room, 0.02), 0.01F);
+    sound.begin_scene({.reference_impulse = 100});
+    pass(room, 0.1);
+    EXPECT_EQ(loudness(room, 0.05), 0);
+    sound.play({&ring, 1}, 0.01);
+    pass(room, 0.1);
+    EXPECT_LT(loudness(room, 0.1), 0.1F); // as weak as it is beside this scene's
+    EXPECT_GT(loudness(room, 0.1), 0.001F);
+    EXPECT_THROW(sound.begin_scene({.reference_mass = -1}), Error);
+}
+
+/// Hangs where it is given something, until it may go on.
+class HangingSpeaker : public Speaker {
+public:
+    explicit HangingSpeaker(std::atomic<bool>& hangs) : hangs_(hangs) {}
+    bool has_room() override { return true; }
+    void take(std::span<const float>) override {
+        while (hangs_) std::this_thread::sleep_for(1ms);
+        std::this_thread::sleep_for(1ms);
+    }
+    bool connected() override { return true; }
+
+private:
+    std::atomic<bool>& hangs_;
+};
+
+TEST(LiveSound, MakesNobodyWait) {
+    std::atomic<bool> hangs = true;
+    {
+        LiveSound sound({}, [&hangs](int) { return std::make_unique<HangingSpeaker>(hangs); });
+        ASSERT_TRUE(eventually([&] { return sound.audible(); }));
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < 1000; ++i) {
+            sound.listen({.position = {0.0, 0.0, static_cast<double>(i)}});
+            sound.play({&thud, 1}, 0.01);
+            sound.set_volume(0.5);
+            sound.begin_scene({});
+        }
+        EXPECT_LT(std::chrono::steady_clock::now() - start, 500ms);
+        hangs = false;
+    }
 }
 
 TEST(LiveSound, RefusesWhatASoundStageRefuses) {

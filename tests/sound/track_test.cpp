@@ -100,6 +100,21 @@ TEST(SoundTrack, InSlowMotionIsLongerAndOfTheSamePitch) {
     EXPECT_THROW(SoundTrack(world, {}, 0), Error);
 }
 
+TEST(SoundTrack, ExcerptsAreAsLongAsAskedForAndFade) {
+    World world = bouncing();
+    SoundTrack track(world, settings_for(world));
+    world.step(1);
+    track.record(world);
+    const std::vector<std::int16_t> half = track.excerpt(0.77);
+    ASSERT_EQ(half.size(), 2 * 36960U);
+    EXPECT_TRUE(std::equal(half.begin(), half.end() - 480, track.samples().begin()));
+    EXPECT_EQ(half.back(), 0);
+    const std::vector<std::int16_t> twice = track.excerpt(2);
+    ASSERT_EQ(twice.size(), 2 * 96000U);
+    EXPECT_TRUE(std::equal(track.samples().begin(), track.samples().end(), twice.begin()));
+    EXPECT_TRUE(track.excerpt(0).empty());
+}
+
 TEST(SoundTrack, WritesItsFileWithAnEndThatFades) {
     const scene::TemporaryFolder folder;
     World world = bouncing();

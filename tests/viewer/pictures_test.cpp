@@ -5,6 +5,7 @@
 #include "viewer/render/gl/context.hpp"
 #include "viewer/render/gl/program.hpp"
 #include "viewer/render/renderer.hpp"
+#include "viewer/stage/obstacle_shapes.hpp"
 
 #include <carom/base.hpp>
 
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace carom::viewer {
 namespace {
@@ -90,6 +92,9 @@ TEST_F(Pictures, LinesAreHiddenUnlessTheyAreOnTop) {
     std::swap(drawing.picture.lines, drawing.picture.lines_on_top);
     image = draw(drawing.finished());
     EXPECT_GT(redness(image, 50), 100);
+    drawing.picture.line_scale = 0.5F;
+    drawing.picture.lines_on_top.front().width = 6;
+    EXPECT_EQ(draw(drawing.finished()).pixels, image.pixels);
     // Behind the camera, and across its plane.
     drawing.picture.lines_on_top = {{{0, -9, 0}, {1, -12, 0}, 3, red, red},
                                     {{0.2F, -12, 0}, {0.2F, 3, 0}, 3, red, red}};
@@ -128,6 +133,83 @@ TEST_F(Pictures, ShellsAreSeenFromInsideAndOutside) {
     drawing.picture.camera.position = {0, -3, 0};
     draw(drawing.finished());
     for (const float depth : renderer_->depths()) EXPECT_LT(depth, 7.01F);
+}
+
+/// A tube of glass along z, from -2 to 2.
+std::vector<Corner> tube() {
+    constexpr int sides = 360;
+    std::vector<Corner> corners;
+    const auto at = [](int i, float z) {
+        const auto angle = static_cast<float>(i) * 0.0174532925F;
+        const Vec3f out{std::cos(angle), std::sin(angle), 0};
+        return Corner{out + Vec3f{0, 0, z}, out};
+    };
+    for (int i = 0; i < sides; ++i) {
+        for (const Corner& corner : {at(i, -2), at(i + 1, -2), at(i + 1, 2), at(i, -2), at(i + 1, 2), at(i, 2)}) {
+            corners.push_back(corner);
+        }
+    }
+    return corners;
+}
+
+TEST_F(Pictures, GlassIsLookedThroughFromOutsideAndSeenFromInside) {
+    const std::vector<Corner> corners = tube();
+    TestDrawing drawing({{{0, 0, 0}, 0.5}}, {{0, -6, 0}, {0, 0, 0}});
+    const Image alone = draw(drawing.finished());
+    drawing.picture.shapes = {{0, 0, 0}, {}, corners, 1, obstacle_colour};
+    const Image in_tube = draw(drawing.finished());
+    const std::vector<float> depths = renderer_->depths();
+    const auto depth = [&](int x, int y) { return depths.at(static_cast<std::size_t>(100 * y + x)); };
+    // Half the height is 6 tan 20 degrees = 2.18 m at the middle; of the tube the wall behind is seen.
+    EXPECT_NEAR(depth(50, 50), 5.5, 0.01);
+    EXPECT_NEAR(depth(50, 80), 7, 0.01);
+    EXPECT_TRUE(std::isinf(depth(5, 50)));
+    // Through it the ball is nearly as bright as without.
+    EXPECT_NEAR(brightness(in_tube, 50, 50), brightness(alone, 50, 50), 40);
+    EXPECT_NE(in_tube.pixels, alone.pixels);
+    drawing.picture.camera = {{0, -0.8, 0}, {0, 0, 0}};
+    draw(drawing.finished());
+    for (const float seen : renderer_->depths()) EXPECT_LT(seen, 1.81F);
+}
+
+TEST_F(Pictures, PlainShapesHideFromBothSidesAndComeAnewWithTheirVersion) {
+    const std::vector<Corner> wall{{{-9, 0, -9}, {0, -1, 0}}, {{9, 0, -9}, {0, -1, 0}}, {{0, 0, 12}, {0, -1, 0}}};
+    std::vector<Corner> nearer = wall;
+    for (Corner& corner : nearer) corner.place.y = -1;
+    TestDrawing drawing({{{0, 2, 0}, 0.5}}, {{0, -6, 0}, {0, 0, 0}});
+    drawing.picture.shapes = {{0, 0.5F, 0}, wall, {}, 1, obstacle_colour};
+    draw(drawing.finished());
+    EXPECT_NEAR(renderer_->depths().at(5050), 6.5, 0.01);
+    drawing.picture.shapes = {{0, 0.5F, 0}, nearer, {}, 2, obstacle_colour};
+    const Image before = draw(drawing.finished());
+    EXPECT_NEAR(renderer_->depths().at(5050), 5.5, 0.01);
+    drawing.picture.camera.position = {0, 4, 0};
+    drawing.picture.to_light = {0.4F, 0.5F, 0.8F}; // as from the other side
+    const Image behind = draw(drawing.finished());
+    EXPECT_NEAR(renderer_->depths().at(5050), 1.5, 0.01); // the ball, which is before the wall now
+    EXPECT_NEAR(brightness(behind, 10, 50), brightness(before, 89, 50), 12);
+}
+
+TEST_F(Pictures, ObstaclesLookAsTheyDid) {
+    const std::vector<Obstacle> obstacles{
+        Frustum{{0, 0, 0.6}, {0, 0, 1}, 1, 0.4, 1.5}, Frustum{{0, 0, 1.6}, {0, 0, 1}, 1.2, 1.5, 1.5},
+        Mesh{{{-3, -3, 0}, {3, -3, 0}, {3, 1, 0}, {-3, 1, 0}, {-3, 3, 1.5}, {3, 3, 1.5}},
+             {{{0, 1, 2}}, {{0, 2, 3}}, {{3, 2, 5}}, {{3, 5, 4}}}}};
+    const ObstacleShapes shapes(obstacles);
+    TestDrawing drawing({}, {{3.5, -8, 5}, {0, 0, 1}, {0, 0, 1}, 35});
+    for (int i = 0; i < 60; ++i) {
+        drawing.spheres.push_back({site(i, 4) * 0.4 + Vec3{-0.6, -0.6, 1.4}, 0.2});
+    }
+    Drawing& picture = drawing.picture;
+    picture.shadows = picture.occlusion = true;
+    picture.occlusion_distance = 0.5;
+    picture.extent = 6;
+    picture.shapes = shapes.shapes(picture.origin);
+    for (const auto& [from, to] : shapes.edges()) {
+        picture.lines.push_back({narrow(from - picture.origin), narrow(to - picture.origin), 1.2F, obstacle_edge_colour,
+                                 obstacle_edge_colour});
+    }
+    expect_like_reference(draw(drawing.finished(), {240, 160, 2}), "obstacles.png");
 }
 
 TEST_F(Pictures, SizesFromOnePixelToTheLargest) {

@@ -2,12 +2,16 @@
 #include "scene/scene.hpp"
 #include "viewer/drawings.hpp"
 #include "viewer/stage/camera_path.hpp"
+#include "viewer/stage/obstacle_shapes.hpp"
 #include "viewer/stage/palette.hpp"
 #include "viewer/stage/stage.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace carom::viewer {
@@ -108,6 +112,15 @@ TEST(Colours, ImpactRatesAreCountedAndForgotten) {
     EXPECT_NEAR(spectator.look(world, false)->highest, 10, 1);
 }
 
+TEST(Colours, TellStaticBodiesFromKinematicOnes) {
+    World world =
+        world_of({}, {{.mass = infinite_mass}, {.position = {5, 0, 0}, .velocity = {0, 0, 1}, .mass = infinite_mass}});
+    world.step(0.1);
+    const auto moment = Spectator(scene::ColourBy::speed).look(world, false);
+    EXPECT_EQ(moment->looks[0], look_of(PaletteRow::still, 0));
+    EXPECT_EQ(moment->looks[1], look_of(PaletteRow::still, 1));
+}
+
 TEST(Colours, ShadesOfAMaterialStayInItsHue) {
     for (std::uint32_t material = 0; material < 8; ++material) {
         for (std::uint32_t seed = 0; seed < 100; ++seed) {
@@ -153,7 +166,7 @@ TEST(Stages, ShowRegionsForcesTrailsAndAttractors) {
     const Attractor attractor{.position = {5, 5, 5}, .strength = 1e-6};
     world.set_attractors({&attractor, 1});
     Spectator spectator(scene::ColourBy::material);
-    Stage stage(world.options().region);
+    Stage stage;
     stage.set_trails(0.25);
     const Camera camera{{5, -20, 9}, {5, 5, 5}};
     std::size_t trail_lines = 0;
@@ -172,6 +185,36 @@ TEST(Stages, ShowRegionsForcesTrailsAndAttractors) {
     EXPECT_EQ(stage.draw(*spectator.look(world, false), world.time(), camera).lines.size(), 24U);
 }
 
+TEST(Stages, DrawMovingFacesWhereTheyAre) {
+    Box piston{{0, 0, 0}, {10, 10, 10}};
+    piston.faces[4].motion = {.velocity = 2};
+    World world = world_of({.region = piston}, {{.position = {5, 5, 8}}});
+    Spectator spectator(scene::ColourBy::material);
+    Stage stage;
+    const Camera camera{{5, -20, 9}, {5, 5, 5}};
+    EXPECT_EQ(stage.draw(*spectator.look(world, false), 0, camera).panels.at(4).corner.z, -5); // from the target
+    for (int i = 1; i <= 3; ++i) {
+        world.step(0.5);
+        spectator.watch_step(world);
+        const auto moment = spectator.look(world, false);
+        for (const double time : {world.time() - 0.5, world.time() - 0.2, world.time()}) {
+            EXPECT_NEAR(stage.draw(*moment, time, camera).panels.at(4).corner.z, 2 * time - 5, 1e-5);
+        }
+    }
+}
+
+TEST(Stages, DrawGrowingBodiesAsLargeAsTheyAre) {
+    World world = world_of({}, {{.radius = 0.5, .growth = 0.1}, {.position = {9, 0, 0}}});
+    Spectator spectator(scene::ColourBy::material);
+    const auto before = spectator.look(world, false);
+    world.step(1);
+    spectator.watch_step(world);
+    const auto after = spectator.look(world, false);
+    EXPECT_FLOAT_EQ(after->radii->at(0), 0.6F);
+    EXPECT_FLOAT_EQ(after->radii->at(1), 0.5F);
+    EXPECT_NE(after->version, before->version);
+}
+
 TEST(Stages, TheOneThatIsPickedGlows) {
     World world = world_of({}, {{}, {.position = {5, 0, 0}}});
     world.step(0.1);
@@ -180,6 +223,87 @@ TEST(Stages, TheOneThatIsPickedGlows) {
     pack(*moment, 0.1, {}, moment->ids->at(1), packed);
     EXPECT_EQ(packed[0].look >> 24U, 0U);
     EXPECT_EQ(packed[1].look >> 24U, 255U);
+}
+
+/// The middles of triangles and their normals, from the corners' places and from what the corners say.
+struct Triangle {
+    Vec3f middle;
+    Vec3f normal;
+    Vec3f told;
+};
+
+std::vector<Triangle> triangles_of(std::span<const Corner> corners) {
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+        const auto& [a, b, c] = std::array{corners[i], corners[i + 1], corners[i + 2]};
+        triangles.push_back({(a.place + b.place + c.place) / 3.0F, unit(cross(b.place - a.place, c.place - a.place)),
+                             unit(a.normal + b.normal + c.normal)});
+    }
+    return triangles;
+}
+
+TEST(ObstacleShapes, OfAFunnelAreGlassThatTurnsOutwards) {
+    const Obstacle funnel = Frustum{{1, 2, 3}, {0, 3, 4}, 5, 1, 2};
+    const ObstacleShapes shapes({&funnel, 1});
+    const Shapes drawn = shapes.shapes({1, 2, 3}); // from the middle of the base
+    EXPECT_TRUE(drawn.plain.empty());
+    ASSERT_FALSE(drawn.glass.empty());
+    const Vec3f axis{0, 0.6F, 0.8F};
+    for (const Corner& corner : drawn.glass) {
+        const Vec3f place = corner.place + drawn.anchor;
+        const float height = dot(place, axis);
+        EXPECT_NEAR(length(place - axis * height), 1 + height / 5, 1e-5F);
+        const Vec3f outwards = unit(place - axis * height);
+        EXPECT_NEAR(dot(corner.normal, outwards), 5 / std::sqrt(26.0F), 1e-5F);
+        EXPECT_NEAR(dot(corner.normal, axis), -1 / std::sqrt(26.0F), 1e-5F);
+    }
+    // A triangle of a cone lies flat: its normal differs from those of its corners by half a segment, 1.9 degrees.
+    for (const Triangle& triangle : triangles_of(drawn.glass)) EXPECT_GT(dot(triangle.normal, triangle.told), 0.999);
+    const Ball& ball = *shapes.ball();
+    EXPECT_LT(ball.radius, 6);
+    for (const Corner& corner : drawn.glass) EXPECT_LT(length(corner.place), ball.radius + 1e-5);
+    EXPECT_EQ(shapes.edges().size(), 2 * 96U + 8);
+}
+
+TEST(ObstacleShapes, OfClosedMeshesAreGlassWhicheverWayTheyRunRound) {
+    const Mesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                           {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{0, 3, 2}}}};
+    Mesh inside_out = tetrahedron;
+    for (auto& triangle : inside_out.triangles) std::swap(triangle[0], triangle[1]);
+    for (const Obstacle& obstacle : {Obstacle{tetrahedron}, Obstacle{inside_out}}) {
+        const ObstacleShapes shapes({&obstacle, 1});
+        const Shapes drawn = shapes.shapes({0.25, 0.25, 0.25});
+        ASSERT_EQ(drawn.glass.size(), 12U);
+        EXPECT_TRUE(drawn.plain.empty());
+        for (const Triangle& triangle : triangles_of(drawn.glass)) {
+            EXPECT_GT(dot(triangle.normal, triangle.middle + drawn.anchor), 0);
+            EXPECT_GT(dot(triangle.normal, triangle.told), 0.999);
+        }
+        EXPECT_EQ(shapes.edges().size(), 6U);
+    }
+}
+
+TEST(ObstacleShapes, OfOpenMeshesHideAndHaveBordersAndCreases) {
+    // A roof of two flat sides, each of two triangles, of which one runs round the other way.
+    const Obstacle roof = Mesh{{{0, -1, 0}, {0, 0, 1}, {0, 1, 0}, {4, -1, 0}, {4, 0, 1}, {4, 1, 0}},
+                               {{{0, 3, 4}}, {{0, 1, 4}}, {{1, 4, 5}}, {{1, 5, 2}}}};
+    const ObstacleShapes shapes({&roof, 1});
+    const Shapes drawn = shapes.shapes({});
+    EXPECT_EQ(drawn.plain.size(), 12U);
+    EXPECT_TRUE(drawn.glass.empty());
+    EXPECT_EQ(shapes.edges().size(), 6U + 1); // and the ridge, but no diagonal
+    EXPECT_FALSE(ObstacleShapes().ball());
+}
+
+TEST(Balls, AroundBodiesAndObstacles) {
+    const Ball both = joined(Ball{{0, 0, 0}, 1}, Ball{{10, 0, 0}, 2});
+    EXPECT_EQ(both.centre, (Vec3{5.5, 0, 0}));
+    EXPECT_EQ(both.radius, 6.5);
+    EXPECT_EQ(joined(Ball{{0, 0, 0}, 9}, Ball{{5, 0, 0}, 2}).radius, 9);
+    EXPECT_EQ(joined(Ball{{5, 0, 0}, 2}, Ball{{0, 0, 0}, 9}).radius, 9);
+    const Ball obstacle{{20, 0, 0}, 1};
+    EXPECT_GT(ball_to_see(OpenSpace{}, Ball{}, obstacle).radius, 10);
+    EXPECT_EQ(ball_to_see(Shell{{0, 0, 0}, 3}, Ball{}, obstacle).radius, 3);
 }
 
 TEST(Balls, LeaveOutTheFew) {

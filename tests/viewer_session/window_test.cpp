@@ -1,10 +1,14 @@
 // The viewer without its window: simulation thread, way back, picking, look ahead, cameras, input and settings.
 #include "scene/temporary_folder.hpp"
+#include "sound/room.hpp"
 #include "viewer/drawings.hpp"
 #include "viewer/window/browser.hpp"
 #include "viewer/window/camera_rig.hpp"
+#include "viewer/window/detail.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
 #include "viewer/window/next_impact.hpp"
+#include "viewer/window/pace.hpp"
 #include "viewer/window/picking.hpp"
 #include "viewer/window/session.hpp"
 #include "viewer/window/settings.hpp"
@@ -17,6 +21,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -172,6 +177,43 @@ TEST(Simulations, AnswerWhileAStepIsSlow) {
     EXPECT_EQ(simulation.status().steps, 4U);
 }
 
+TEST(Frames, ComeAtMostSixtyTimesASecondAndCostNothingInBetween) {
+    constexpr int frames = 30;
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
+    for (int i = 0; i < frames; ++i) pace(std::chrono::steady_clock::now());
+    const auto passed = std::chrono::steady_clock::now() - start;
+    EXPECT_GE(passed, frames * frame_time);
+    EXPECT_LT(static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC,
+              0.2 * std::chrono::duration<double>(passed).count());
+}
+
+TEST(Frames, AreDrawnAsFinelyAsSixtyASecondAllow) {
+    // What a picture costs goes by its pixels, and there is something that it costs in any case.
+    const auto settles_at = [](double full, double fixed) {
+        Detail detail;
+        int changes = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const int divisor = detail.divisor();
+            detail.took(fixed + full / (divisor * divisor));
+            if (i >= 500 && detail.divisor() != divisor) ++changes;
+        }
+        EXPECT_EQ(changes, 0) << "it swings: " << full << " s, " << fixed << " s";
+        return detail.divisor();
+    };
+    EXPECT_EQ(settles_at(0.001, 0.001), 1);
+    EXPECT_EQ(settles_at(0.015, 0.001), 1);
+    EXPECT_EQ(settles_at(0.06, 0.001), 2);
+    EXPECT_EQ(settles_at(0.12, 0.004), 3);
+    EXPECT_EQ(settles_at(9, 1), 3);
+    for (int i = 0; i < 100; ++i) settles_at(0.002 * i, 0.002);
+    Detail detail;
+    for (int i = 0; i < 100; ++i) detail.took(0.1);
+    EXPECT_EQ(detail.divisor(), Detail::coarsest);
+    for (int i = 0; i < 100; ++i) detail.took(0.001);
+    EXPECT_EQ(detail.divisor(), 1);
+}
+
 // What comes next -----------------------------------------------------------------------------------------------------
 
 TEST(NextImpact, IsTheOneThatTheWorldMakes) {
@@ -180,7 +222,7 @@ TEST(NextImpact, IsTheOneThatTheWorldMakes) {
         const BodyId flyer = world.add({.position = {-5, 0, 5}, .velocity = {4, 0, 3}});
         world.add({.position = {0.5, 0.2, 8}, .mass = infinite_mass, .radius = 1});
         world.add({.position = {5, 5, 9}, .velocity = {-1, -1, 0}});
-        const auto next = next_impact(world, flyer, 100);
+        const auto next = LookAhead().next_impact(world, flyer, 100);
         ASSERT_TRUE(next);
         while (world.impacts().empty()) world.step(0.1);
         const Impact& first = world.impacts().front();
@@ -193,7 +235,7 @@ TEST(NextImpact, IsTheOneThatTheWorldMakes) {
 TEST(NextImpact, OfFacesPlanesShellsAndNothing) {
     const auto next_in = [](const Region& region) {
         World world({.region = region});
-        return next_impact(world, world.add({.velocity = {2, 0, 0}}), 100);
+        return LookAhead().next_impact(world, world.add({.velocity = {2, 0, 0}}), 100);
     };
     EXPECT_NEAR(next_in(Box{{-3, -3, -3}, {3, 3, 3}})->in, 1.25, 1e-12);
     EXPECT_EQ(next_in(Box{{-3, -3, -3}, {3, 3, 3}})->face, 1);
@@ -203,7 +245,52 @@ TEST(NextImpact, OfFacesPlanesShellsAndNothing) {
     EXPECT_EQ(plane->face, 1);
     EXPECT_FALSE(next_in(OpenSpace{}));
     World world;
-    EXPECT_FALSE(next_impact(world, world.add({.mass = infinite_mass}), 100));
+    EXPECT_FALSE(LookAhead().next_impact(world, world.add({.mass = infinite_mass}), 100));
+}
+
+/// Asks ten times on the way to the first impact: each time it is told, and it is the one that comes.
+void expect_first_impact_to_be_told(World world, BodyId flyer) {
+    LookAhead look_ahead;
+    World future = world;
+    while (future.impacts().empty()) future.step(0.01);
+    const Impact& first = future.impacts().front();
+    const double part = (first.time - world.time()) / 10;
+    for (int i = 0; i < 10; ++i) {
+        const auto next = look_ahead.next_impact(world, flyer, 100);
+        ASSERT_TRUE(next);
+        EXPECT_NEAR(next->in, first.time - world.time(), 1e-9);
+        EXPECT_EQ(next->face, first.face);
+        world.step(part);
+    }
+}
+
+TEST(NextImpact, WithObstacles) {
+    const Frustum funnel{{0, 0, 2}, {0, 0, 1}, 1.5, 0.6, 1.9};
+    const Mesh slope{{{-5, -5, 0}, {5, -5, 0}, {5, 5, 1}, {-5, 5, 1}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    for (const Vec3& position : {Vec3{0.9, 0, 8}, Vec3{-4, 1, 8}}) {
+        World world({.gravity = {0, 0, -9.81}, .region = Box{{-9, -9, -5}, {9, 9, 20}}, .obstacles = {slope, funnel}});
+        expect_first_impact_to_be_told(world,
+                                       world.add({.position = position, .velocity = {0, 0.2, 0}, .radius = 0.1}));
+    }
+}
+
+TEST(NextImpact, WithFacesThatMove) {
+    Box shaker{{0, 0, 0}, {4, 4, 9}};
+    shaker.faces[4].motion = {.amplitude = 0.3, .angular_frequency = 20};
+    World world({.gravity = {0, 0, -9.81}, .region = shaker});
+    const BodyId ball = world.add({.position = {2, 2, 6}, .radius = 0.1});
+    world.step(0.123); // not at the beginning of the motion
+    expect_first_impact_to_be_told(world, ball);
+}
+
+TEST(NextImpact, OfWhatLiesOnAnObstacleIsNone) {
+    const Mesh table{{{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    World world({.gravity = {0, 0, -9.81}, .obstacles = {table}});
+    const BodyId ball = world.add({.position = {0, 0, 0.5 + 1e-4}, .restitution = 0});
+    LookAhead look_ahead;
+    EXPECT_NEAR(look_ahead.next_impact(world, ball, 100)->in, std::sqrt(2e-4 / 9.81), 1e-6);
+    world.step(1);
+    EXPECT_FALSE(look_ahead.next_impact(world, ball, 100));
 }
 
 // Mouse and cameras ---------------------------------------------------------------------------------------------------
@@ -293,6 +380,93 @@ TEST(Inputs, TellClicksFromDrags) {
     EXPECT_EQ(input.pressed().size(), 1U);
 }
 
+// Ears ----------------------------------------------------------------------------------------------------------------
+
+using test::Room;
+
+TimedStrike strike_at(double time) { return {time, {.position = {0, 1, 0}, .restitution = 0}}; }
+
+TEST(Hearing, IsInTimeWithThePicture) {
+    Room room;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    // Frames of 50 ms that show 0.2 s of the world each; the simulation is ahead by two of them.
+    const std::vector<double> times{0.1, 0.5, 0.85, 1.3};
+    std::size_t next = 0;
+    for (int frame = 0; frame < 10; ++frame) {
+        const double before = 0.2 * frame;
+        for (; next < times.size() && times[next] <= before + 0.6; ++next) {
+            const TimedStrike strike = strike_at(times[next]);
+            ears.add({&strike, 1});
+        }
+        ears.hear(before, before + 0.2, 0.05, {});
+        test::pass(room, 0.05);
+    }
+    const std::vector<double> heard = test::onsets(room);
+    ASSERT_EQ(heard.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(heard[i], 0.025 + times[i] / 4, 0.005) << i;
+    EXPECT_EQ(ears.heard(), times.size());
+    EXPECT_EQ(ears.problem(), "");
+}
+
+TEST(Hearing, ForgetsWhatDoesNotHappenAnyMore) {
+    Room room;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    const std::vector<TimedStrike> strikes{strike_at(0.5), strike_at(1.5)};
+    ears.add(strikes);
+    ears.hear(1, 1, 0.1, {});   // the first one is late, and heard at once
+    ears.hear(1, 0.9, 0.1, {}); // a step back
+    ears.hear(0.9, 9, 0.1, {});
+    EXPECT_EQ(ears.heard(), 1U);
+    ears.add(strikes);
+    ears.begin_scene({});
+    ears.hear(0, 9, 0.1, {});
+    EXPECT_EQ(ears.heard(), 1U);
+}
+
+TEST(Hearing, SaysWhyThereIsNoneAndTriesAgain) {
+    Room room;
+    room.plugged = false;
+    Ears ears(test::speaker_in(room));
+    ASSERT_TRUE(test::eventually([&] { return !ears.problem().empty(); }));
+    EXPECT_EQ(ears.problem(), "sound: there is no sound device");
+    const TimedStrike strike = strike_at(0.5);
+    ears.add({&strike, 1});
+    ears.hear(0, 1, 0.1, {});
+    EXPECT_EQ(ears.heard(), 0U);
+    test::plug(room, true);
+    ears.try_again();
+    ASSERT_TRUE(test::eventually([&] { return ears.audible(); }));
+    EXPECT_EQ(ears.problem(), "");
+}
+
+TEST(Hearing, OfASimulationIsOfItsImpacts) {
+    Simulation simulation(small_gas(), 0.05, scene::ColourBy::material);
+    simulation.run_to(0.999);
+    simulation.wait_until_idle();
+    EXPECT_TRUE(simulation.take_strikes().empty()); // nobody listens
+    simulation.hear(true);
+    simulation.run_to(1.999);
+    simulation.wait_until_idle();
+    const std::vector<TimedStrike> strikes = simulation.take_strikes();
+    World world = small_gas();
+    std::vector<double> expected;
+    while (world.time() < 1.99) {
+        world.step(0.05);
+        if (world.time() < 1.01) continue;
+        for (const Impact& impact : world.impacts())
+            expected.insert(expected.end(), impact.b.is_set() ? 2 : 1, impact.time);
+    }
+    ASSERT_GT(expected.size(), 10U);
+    ASSERT_EQ(strikes.size(), expected.size());
+    for (std::size_t i = 0; i < strikes.size(); ++i) EXPECT_NEAR(strikes[i].time, expected[i], 1e-12);
+    simulation.run_to(2.999);
+    simulation.step_back();
+    simulation.wait_until_idle();
+    EXPECT_TRUE(simulation.take_strikes().empty()); // of a time that was left
+}
+
 // Sessions ------------------------------------------------------------------------------------------------------------
 
 constexpr const char* two_balls = R"(
@@ -362,6 +536,26 @@ TEST(Sessions, SayHowFarTheyLag) {
     EXPECT_EQ(session.lag(), 0);
 }
 
+TEST(Sessions, RestartWithoutWaitingForAStep) {
+    const TemporaryFolder folder;
+    Session session(folder.write("two.toml", two_balls));
+    session.advance(1, true);
+    EXPECT_NEAR(session.time(), 2, 1e-9);
+    session.advance(1000, false); // 20 000 steps
+    session.restart();
+    session.restart();
+    int frames = 0;
+    while (session.moment()->era < 2 && ++frames < 10'000) {
+        session.advance(1e-3, false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(session.time(), 0);
+    EXPECT_LT(session.status().steps, 3U); // it goes on from there, and not to where it was
+    EXPECT_TRUE(session.plots().empty());
+    session.advance(0.5, true);
+    EXPECT_NEAR(session.time(), 1, 1e-9);
+}
+
 TEST(Sessions, PickShootAndChange) {
     const TemporaryFolder folder;
     Session session(folder.write("two.toml", two_balls));
@@ -414,6 +608,23 @@ TEST(Sessions, OpenSnapshotsAndRefuseOtherFiles) {
     EXPECT_THROW(Session(folder.write("bad.toml", "x = 1")), scene::SceneError);
 }
 
+TEST(Sessions, HearFromTheCameraAndWithWhomItFollows) {
+    const TemporaryFolder folder;
+    Session session(folder.write("two.toml", two_balls));
+    EXPECT_EQ(session.sound_settings().reference_distance, 10); // half the way to the target
+    sound::Listener listener = session.listener();
+    EXPECT_EQ(listener.position, (Vec3{0, -20, 5}));
+    EXPECT_EQ(listener.forward, (Vec3{0, 1, 0}));
+    EXPECT_EQ(listener.velocity, Vec3{});
+    session.pick(session.moment()->ids->at(1));
+    session.rig().set_mode(CameraMode::follow);
+    session.advance(0.05, true); // a step: it falls
+    EXPECT_NEAR(session.listener().velocity.z, -1, 1e-9);
+    session.rig().set_camera({{0, 0, 9}, {0, 0, 0}, {0, 0, 1}}); // straight down: up is not along it
+    listener = session.listener();
+    EXPECT_NEAR(dot(listener.up, listener.forward), 0, 1e-12);
+}
+
 TEST(Sessions, AreFineWithoutBodies) {
     const TemporaryFolder folder;
     Session session(folder.write("empty.toml", ""));
@@ -445,12 +656,16 @@ TEST(ViewSettings, ComeBack) {
     Settings settings;
     settings.width = 640;
     settings.height = 480;
+    settings.volume = 0.25;
+    settings.muted = true;
     settings.cameras["/scenes/a b.toml"] = {{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 25};
     const auto file = folder.path() / "deep/er/view.json";
     save_settings(settings, file);
     const Settings back = load_settings(file);
     EXPECT_EQ(back.width, 640);
     EXPECT_EQ(back.height, 480);
+    EXPECT_EQ(back.volume, 0.25);
+    EXPECT_TRUE(back.muted);
     const Camera& camera = back.cameras.at("/scenes/a b.toml");
     EXPECT_EQ(camera.position, (Vec3{1, 2, 3}));
     EXPECT_EQ(camera.target, (Vec3{4, 5, 6}));
@@ -463,6 +678,7 @@ TEST(ViewSettings, ThatMakeNoSenseAreTheUsualOnes) {
     EXPECT_EQ(load_settings(folder.path() / "missing.json").width, Settings{}.width);
     for (const char* text :
          {"", "{", "[]", "3", R"({"width": "x"})", R"({"width": -5, "height": 1e9, "cameras": {}})",
+          R"({"volume": "x", "cameras": {}})",
           R"({"cameras": {"a": {"position": [1, 2], "target": [0, 0, 0], "up": [0, 0, 1], "field_of_view": 4}}})",
           R"({"cameras": {"a": {"position": [1, 2, 3], "target": [1, 2, 3], "up": [0, 0, 1], "field_of_view": 4}}})"}) {
         const Settings settings = load_settings(folder.write("view.json", text));

@@ -1,30 +1,25 @@
 /// \file
-/// Films: frames go through a pipe to ffmpeg, which writes the file.
+/// Films: frames go through a pipe to ffmpeg, which writes the file; sound is added at the end.
 #pragma once
 
+#include "viewer/film/ffmpeg.hpp"
 #include "viewer/render/image.hpp"
 
-#include <sys/types.h>
-
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
+#include <span>
 
 namespace carom::viewer {
 
 struct FilmFormat {
-    int width = 0;          ///< pixels, even
-    int height = 0;         ///< pixels, even
-    double fps = 30;        ///< frames a second
-    std::string sound = {}; ///< what ffmpeg takes as second input, for example a WAV file or a pipe; none if empty
+    int width = 0;   ///< pixels, even
+    int height = 0;  ///< pixels, even
+    double fps = 30; ///< frames a second
 };
 
-/// What ffmpeg is called with to write `file`.
-std::vector<std::string> ffmpeg_arguments(const FilmFormat& format, const std::filesystem::path& file);
-
-/// The film appears whole or not at all: until finish() it is `file` + ".part".
+/// The film appears whole or not at all: until the end there is only `file` + ".part", and another such file while
+/// sound is added. Its functions throw carom::Error{input_output} with what ffmpeg says.
 class FilmWriter {
 public:
     /// Starts ffmpeg. Throws carom::Error{not_available} if it is missing.
@@ -33,20 +28,17 @@ public:
     FilmWriter(const FilmWriter&) = delete;
     FilmWriter& operator=(const FilmWriter&) = delete;
 
-    /// Throws carom::Error{input_output} with what ffmpeg says.
     void add(const Image& frame);
-    /// The film is complete. Throws as add().
+    /// The film is complete, and silent.
     void finish();
+    /// The film is complete, with samples that stand left and right in turn, `rate` a second.
+    void finish(std::span<const std::int16_t> samples, int rate);
 
 private:
-    int wait_for_ffmpeg();
-    [[noreturn]] void fail(); ///< ffmpeg has ended
-
     std::filesystem::path file_;
-    std::filesystem::path part_;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> complaints_; ///< ffmpeg's standard error
-    int pipe_ = -1;
-    pid_t ffmpeg_ = -1;
+    std::filesystem::path pictures_; ///< the film without sound
+    std::filesystem::path whole_;    ///< with sound
+    std::unique_ptr<Ffmpeg> ffmpeg_;
 };
 
 } // namespace carom::viewer

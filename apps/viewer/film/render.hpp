@@ -15,6 +15,7 @@ struct RenderOptions {
     std::filesystem::path file;     ///< a film if it ends in .mp4, a PNG picture if in .png
     PictureSize size{1280, 720, 2}; ///< of a film even
     double fps = 30;                ///< frames a second
+    bool sound = true;              ///< a film is heard as well
     unsigned threads = 0;           ///< of the engine; 0: one for each core
 };
 
@@ -31,7 +32,8 @@ bool is_film(const std::filesystem::path& file);
 
 /// Runs the scene and draws it: a film of all the run, or a picture at PictureSettings::moment (the run's end if it is
 /// not set). `go_on` is asked after each step or frame. Returns false, with no file written, if it has said no. Throws
-/// carom::Error{not_available} where graphics or ffmpeg are missing, {input_output} where the file cannot be written.
+/// carom::Error{not_available} where graphics, ffmpeg or sound are missing, {input_output} where the file cannot be
+/// written.
 bool render(const scene::Scene& scene, const RenderOptions& options,
             const std::function<bool(const RenderProgress&)>& go_on);
 

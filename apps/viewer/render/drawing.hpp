@@ -77,6 +77,21 @@ struct Hollow {
     Colour colour{};
 };
 
+/// A corner of a triangle.
+struct Corner {
+    Vec3f place{};  ///< m, from Shapes::anchor
+    Vec3f normal{}; ///< of length 1, to the outside
+};
+
+/// Surfaces made of triangles: three corners each, counterclockwise as seen from outside.
+struct Shapes {
+    Vec3f anchor{};                  ///< m, from Drawing::origin
+    std::span<const Corner> plain{}; ///< seen from both sides
+    std::span<const Corner> glass{}; ///< seen from inside; from outside one looks through it
+    std::uint64_t version = 0;       ///< another number whenever corners differ from those of the picture before
+    Colour colour{};
+};
+
 /// One picture. Coordinates are relative to `origin`, so that single precision will do anywhere in the world.
 struct Drawing {
     Camera camera{};
@@ -88,8 +103,10 @@ struct Drawing {
     std::uint64_t palette_version = 0; ///< the same for the palette
     std::vector<Line> lines{};         ///< hidden by what is in front of them
     std::vector<Line> lines_on_top{};  ///< seen through everything
+    float line_scale = 1;              ///< that widths of lines are multiplied by
     std::vector<Panel> panels{};
     std::optional<Hollow> hollow{};
+    Shapes shapes{};
     Vec3f centre{};   ///< m, from Drawing::origin: a ball around all that throws shadows
     float extent = 1; ///< m, its radius
     Vec3f to_light{0.4F, -0.5F, 0.8F};

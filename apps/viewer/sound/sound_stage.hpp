@@ -114,7 +114,8 @@ using OpenSpeaker = std::function<std::unique_ptr<Speaker>(int rate)>;
 std::unique_ptr<Speaker> open_default_speaker(int rate);
 
 /// Plays the sound of strikes as they come, from a thread of its own: a window that is slow for a moment does not make
-/// it stutter. Without a device, or once it has vanished, it is silent and everything else goes on.
+/// it stutter, and no call waits for it. Without a device, or once it has vanished, it is silent and everything else
+/// goes on.
 class LiveSound {
 public:
     /// Throws Error{not_finite|out_of_range} naming the setting.
@@ -123,7 +124,11 @@ public:
     LiveSound(const LiveSound&) = delete;
     LiveSound& operator=(const LiveSound&) = delete;
 
+    /// Another scene from now on, at the same rate: what still sounds of the one before ends.
+    void begin_scene(const SoundSettings& settings);
     void listen(const Listener& listener);
+    /// 0 to 1, of full scale.
+    void set_volume(double volume);
     /// Plays the strikes of a frame that lasts `duration` (s, > 0). Frames follow on each other without a gap and with
     /// a constant latency, as long as they come in time; one that comes late begins at once.
     void play(std::span<const Strike> strikes, double duration);

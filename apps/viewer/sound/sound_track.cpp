@@ -52,15 +52,23 @@ void SoundTrack::record(const World& world) {
     std::transform(block_.begin(), block_.end(), std::back_inserter(samples_), to_16_bits);
 }
 
-void SoundTrack::write_wav(const std::filesystem::path& file) const {
+std::vector<std::int16_t> SoundTrack::excerpt(double seconds) const {
+    const auto frames = static_cast<std::size_t>(std::llround(seconds * rate_));
     std::vector<std::int16_t> samples = samples_;
+    samples.resize(2 * frames);
     const std::size_t fade = std::min(samples.size(), 2 * static_cast<std::size_t>(end_fade * rate_));
     for (std::size_t left = 0; left < fade; ++left) {
         std::int16_t& sample = samples[samples.size() - 1 - left];
         sample = static_cast<std::int16_t>(std::lround(sample * static_cast<double>(left) / static_cast<double>(fade)));
     }
+    return samples;
+}
+
+void SoundTrack::write_wav(const std::filesystem::path& file) const {
+    const std::size_t frames = samples_.size() / 2;
+    const double seconds = static_cast<double>(frames) / rate_;
     try {
-        scene::write_file(file, wav_file(samples, rate_));
+        scene::write_file(file, wav_file(excerpt(seconds), rate_));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::out_of_range) throw;
         throw Error(ErrorCode::input_output, file.string(), "a WAV file holds at most 4 GiB");

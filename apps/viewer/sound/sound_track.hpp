@@ -23,8 +23,11 @@ public:
     /// The step that the world has just done. The world must record its impacts.
     void record(const World& world);
 
+    [[nodiscard]] int rate() const { return rate_; } ///< samples a second
     /// Samples so far, left and right in turn, as 16-bit integers.
     [[nodiscard]] const std::vector<std::int16_t>& samples() const { return samples_; }
+    /// The first `seconds` (>= 0), silence where it is shorter; the last 5 ms fade.
+    [[nodiscard]] std::vector<std::int16_t> excerpt(double seconds) const;
     /// Writes a WAV file, whole or not at all; its last 5 ms fade. Throws Error{input_output} naming the file, also
     /// where it would exceed the format's 4 GiB.
     void write_wav(const std::filesystem::path& file) const;

@@ -56,14 +56,22 @@ Ball ball_around(std::span<const Vec3> positions, std::span<const float> radii) 
     return {(low + high) / 2, radius > 0 ? radius : 1};
 }
 
-Ball ball_to_see(const Region& region, const Ball& bodies) {
+Ball joined(const Ball& a, const Ball& b) {
+    const Vec3 way = b.centre - a.centre;
+    const double distance = length(way);
+    if (distance + b.radius <= a.radius) return a;
+    if (distance + a.radius <= b.radius) return b;
+    const double radius = (distance + a.radius + b.radius) / 2;
+    return {a.centre + way * ((radius - a.radius) / distance), radius};
+}
+
+Ball ball_to_see(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles) {
     if (const auto* shell = std::get_if<Shell>(&region)) return {shell->centre, shell->radius};
     const auto* box = std::get_if<Box>(&region);
-    if (box == nullptr) return bodies;
-    const bool closed = std::none_of(box->faces.begin(), box->faces.end(),
-                                     [](const Face& face) { return face.kind == FaceKind::open; });
-    if (!closed) return bodies;
-    return {(box->min + box->max) / 2, length(box->max - box->min) / 2};
+    const bool closed = box != nullptr && std::none_of(box->faces.begin(), box->faces.end(),
+                                                       [](const Face& face) { return face.kind == FaceKind::open; });
+    if (closed) return {(box->min + box->max) / 2, length(box->max - box->min) / 2};
+    return obstacles ? joined(bodies, *obstacles) : bodies;
 }
 
 Vec3 periods_of(const Region& region) {

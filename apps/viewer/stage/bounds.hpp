@@ -5,6 +5,7 @@
 #include <carom/base.hpp>
 #include <carom/region.hpp>
 
+#include <optional>
 #include <span>
 
 namespace carom::viewer {
@@ -17,8 +18,11 @@ struct Ball {
 /// A ball around the bodies. A few that are far from all others do not count.
 Ball ball_around(std::span<const Vec3> positions, std::span<const float> radii);
 
-/// What a camera should see: the region where it is closed, else the bodies.
-Ball ball_to_see(const Region& region, const Ball& bodies);
+/// The smallest ball around two.
+Ball joined(const Ball& a, const Ball& b);
+
+/// What a camera should see: the region where it is closed, else the bodies and the obstacles, if there are any.
+Ball ball_to_see(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles);
 
 /// m: the sides along which the region repeats, 0 along the others.
 Vec3 periods_of(const Region& region);

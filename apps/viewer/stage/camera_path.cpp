@@ -71,4 +71,12 @@ Camera camera_at(const scene::CameraSpec& spec, double time, const Ball& to_see,
     return camera;
 }
 
+CameraAxes axes_of(const Camera& camera) {
+    const Vec3 forward = unit(camera.target - camera.position, {0, 1, 0});
+    Vec3 right = cross(forward, camera.up);
+    if (!(length(right) > 0)) right = cross(forward, Vec3{forward.y, forward.z, forward.x});
+    right = unit(right);
+    return {forward, right, cross(right, forward)};
+}
+
 } // namespace carom::viewer

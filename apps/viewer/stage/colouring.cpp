@@ -171,7 +171,7 @@ void Colouring::paint(const ColouredBodies& bodies, std::span<const Attractor> a
         if (by_ == scene::ColourBy::material) {
             looks[i] = look_of(PaletteRow::materials, place_of_material(bodies.material[i], bodies.ids[i].slot));
         } else if (bodies.mass[i] == infinite_mass) {
-            looks[i] = look_of(PaletteRow::still, 0);
+            looks[i] = look_of(PaletteRow::still, bodies.velocity[i] == Vec3{} ? 0 : 1);
         } else {
             looks[i] = look_of(PaletteRow::scale, (values_[i] - low) * scale);
         }

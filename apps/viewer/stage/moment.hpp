@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Moment {
     std::shared_ptr<const std::vector<BodyId>> ids = std::make_shared<const std::vector<BodyId>>();
     std::shared_ptr<const std::vector<float>> radii = std::make_shared<const std::vector<float>>(); ///< m
     std::uint64_t version = 0;        ///< another one where ids or radii are others
+    std::uint64_t era = 0;            ///< how often the simulation was restarted before
     std::vector<Vec3> position;       ///< m, at the end
     std::vector<Vec3f> way;           ///< m, during the step, by the short way across periodic faces
     std::vector<std::uint32_t> looks; ///< PackedBody::look
@@ -28,9 +30,17 @@ struct Moment {
     std::vector<Attractor> attractors;
     double lowest = 0; ///< what the ends of the scale of colours stand for
     double highest = 0;
+    Region region_before; ///< as it was at the beginning
+    Region region;        ///< at the end
 
     /// Where body number `i` is at `time`, on the straight line between the two ends.
     [[nodiscard]] Vec3 position_at(std::size_t i, double time) const;
+    /// The region at `time`; its faces go straight, too.
+    [[nodiscard]] Region region_at(double time) const;
+
+private:
+    /// The part of the step that is still to come at `time`.
+    [[nodiscard]] double part_left(double time) const;
 };
 
 /// Looks at a world after its steps. Where it was made without WorldOptions::interpolation, bodies are taken to have
@@ -44,11 +54,12 @@ public:
     void watch_step(const World& world);
     /// What is seen now. `old`, if given, lends its memory.
     std::shared_ptr<Moment> look(const World& world, bool with_contacts, std::shared_ptr<Moment> old = nullptr);
-    /// Bodies were added, removed, or given other masses, radii or materials.
-    void bodies_changed() { ids_ = nullptr; }
+    /// Bodies were added, removed, or given other masses, radii or materials, or the world is at another time.
+    void bodies_changed();
 
 private:
     void read_bodies(const World& world);
+    void read_radii(const World& world);
     void find_ways(const World& world, Moment& moment);
 
     Colouring colouring_;
@@ -59,6 +70,9 @@ private:
     std::vector<Vec3> before_; ///< m, at the beginning of the step
     std::vector<double> mass_;
     std::vector<std::uint32_t> material_;
+    bool growing_ = false;                ///< a radius changes from step to step
+    std::optional<Region> region_before_; ///< at the beginning of the last step, if that was watched
+    std::optional<Region> region_;        ///< at its end
 };
 
 } // namespace carom::viewer

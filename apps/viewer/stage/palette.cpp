@@ -28,7 +28,7 @@ constexpr Ramp<material_count> materials{{{0.84F, 0.82F, 0.77F, 1},
                                           {0.58F, 0.51F, 0.74F, 1},
                                           {0.89F, 0.70F, 0.32F, 1},
                                           {0.38F, 0.66F, 0.64F, 1}}};
-constexpr Ramp<2> still{{{0.50F, 0.52F, 0.55F, 1}, {0.50F, 0.52F, 0.55F, 1}}};
+constexpr Ramp<2> still{{{0.50F, 0.52F, 0.55F, 1}, {0.68F, 0.60F, 0.46F, 1}}}; // static, kinematic
 constexpr Ramp<5> planet{{{0.20F, 0.17F, 0.16F, 1},
                           {0.34F, 0.27F, 0.23F, 1},
                           {0.55F, 0.45F, 0.36F, 1},

@@ -23,6 +23,8 @@ inline constexpr Colour ground_colour{0.085F, 0.095F, 0.115F, 1};
 inline constexpr Colour space_sky_colour{0.055F, 0.065F, 0.095F, 1}; ///< where nothing bounds the world
 inline constexpr Colour space_ground_colour{0.020F, 0.022F, 0.035F, 1};
 inline constexpr Colour panel_colour{0.36F, 0.38F, 0.41F, 1};
+inline constexpr Colour obstacle_colour{0.47F, 0.46F, 0.43F, 1};
+inline constexpr Colour obstacle_edge_colour{0.86F, 0.84F, 0.76F, 0.55F};
 inline constexpr Colour outline_colour{0.75F, 0.80F, 0.88F, 0.45F};
 inline constexpr Colour periodic_colour{0.45F, 0.75F, 1.0F, 0.55F};
 inline constexpr Colour force_colour{1.0F, 0.80F, 0.35F, 0.9F};

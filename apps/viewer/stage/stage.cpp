@@ -73,6 +73,10 @@ void Stage::follow_bodies(const Moment& moment) {
     }
 }
 
+Ball Stage::to_see(const Moment& moment) const {
+    return ball_to_see(moment.region, ball_around(moment.position, *moment.radii), obstacles_.ball());
+}
+
 const Drawing& Stage::draw(const Moment& moment, double time, const Camera& camera) {
     follow_bodies(moment);
     drawing_.camera = camera;
@@ -86,11 +90,12 @@ const Drawing& Stage::draw(const Moment& moment, double time, const Camera& came
     drawing_.radii_version = moment.version;
     drawing_.palette = palette();
     drawing_.palette_version = 1;
-    const bool open = std::holds_alternative<OpenSpace>(region_);
+    const Region region = moment.region_at(time);
+    const bool open = std::holds_alternative<OpenSpace>(region);
     drawing_.sky = open ? space_sky_colour : sky_colour;
     drawing_.ground = open ? space_ground_colour : ground_colour;
 
-    const Ball seen = ball_to_see(region_, *bodies_);
+    const Ball seen = ball_to_see(region, *bodies_, obstacles_.ball());
     drawing_.centre = local(seen.centre);
     drawing_.extent = static_cast<float>(1.1 * seen.radius);
     const Vec3f up = unit(narrow(camera.up));
@@ -101,11 +106,12 @@ const Drawing& Stage::draw(const Moment& moment, double time, const Camera& came
     drawing_.lines_on_top.clear();
     drawing_.panels.clear();
     drawing_.hollow.reset();
-    draw_region(seen);
+    draw_region(region, seen);
+    draw_obstacles();
     draw_attractors(moment);
     draw_forces(moment, time);
     remember_trails(moment, time);
-    draw_trails(time);
+    draw_trails(time, periods_of(region));
     return drawing_;
 }
 
@@ -113,10 +119,10 @@ void Stage::add_outline(const Vec3& from, const Vec3& to, const Colour& colour) 
     drawing_.lines.push_back({local(from), local(to), 1.2F, colour, colour});
 }
 
-void Stage::draw_region(const Ball& bodies) {
-    if (const auto* box = std::get_if<Box>(&region_)) draw_box(*box);
-    if (const auto* shell = std::get_if<Shell>(&region_)) draw_shell(*shell);
-    if (const auto* planes = std::get_if<std::vector<Plane>>(&region_)) {
+void Stage::draw_region(const Region& region, const Ball& bodies) {
+    if (const auto* box = std::get_if<Box>(&region)) draw_box(*box);
+    if (const auto* shell = std::get_if<Shell>(&region)) draw_shell(*shell);
+    if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) {
         for (const Plane& plane : *planes) draw_plane(plane, bodies);
     }
 }
@@ -170,6 +176,11 @@ void Stage::draw_plane(const Plane& plane, const Ball& bodies) {
 
 void Stage::draw_shell(const Shell& shell) {
     drawing_.hollow = Hollow{local(shell.centre), static_cast<float>(shell.radius), faded(panel_colour, 0.6)};
+}
+
+void Stage::draw_obstacles() {
+    drawing_.shapes = obstacles_.shapes(drawing_.origin);
+    for (const auto& [from, to] : obstacles_.edges()) add_outline(from, to, obstacle_edge_colour);
 }
 
 /// Those that no body carries, as crosses.
@@ -249,8 +260,7 @@ void Stage::remember_trails(const Moment& moment, double time) {
     while (trails_.front().time < time - trail_seconds()) trails_.pop_front();
 }
 
-void Stage::draw_trails(double time) {
-    const Vec3 periods = periods_of(region_);
+void Stage::draw_trails(double time, const Vec3& periods) {
     const auto age = [&](const TrailPoint& point) {
         return std::clamp(1 - (time - point.time) / trail_seconds(), 0.0, 1.0);
     };

@@ -1,16 +1,19 @@
 /// \file
-/// Makes the drawing of a moment: bodies packed for the graphics card, region, trails, forces and attractors.
+/// Makes the drawing of a moment: bodies packed for the graphics card, region, obstacles, trails, forces
+/// and attractors.
 #pragma once
 
 #include "viewer/render/drawing.hpp"
 #include "viewer/stage/bounds.hpp"
 #include "viewer/stage/moment.hpp"
+#include "viewer/stage/obstacle_shapes.hpp"
 
 #include <carom/region.hpp>
 
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace carom::viewer {
@@ -22,8 +25,11 @@ void pack(const Moment& moment, double time, const Vec3& origin, std::optional<B
 
 class Stage {
 public:
-    Stage() = default; ///< of open space
-    explicit Stage(Region region) : region_(std::move(region)) {}
+    Stage() = default; ///< without obstacles
+    explicit Stage(std::span<const Obstacle> obstacles) : obstacles_(obstacles) {}
+
+    /// What a camera should see of `moment`.
+    [[nodiscard]] Ball to_see(const Moment& moment) const;
 
     /// The drawing of `moment` at `time` (s, in its step), valid until the next call.
     const Drawing& draw(const Moment& moment, double time, const Camera& camera);
@@ -40,7 +46,8 @@ public:
 
 private:
     void follow_bodies(const Moment& moment);
-    void draw_region(const Ball& bodies);
+    void draw_region(const Region& region, const Ball& bodies);
+    void draw_obstacles();
     void draw_box(const Box& box);
     void draw_plane(const Plane& plane, const Ball& bodies);
     void draw_shell(const Shell& shell);
@@ -49,7 +56,7 @@ private:
     [[nodiscard]] double trail_seconds() const;
     void forget_trails();
     void choose_trail_bodies(const Moment& moment);
-    void draw_trails(double time);
+    void draw_trails(double time, const Vec3& periods);
     void add_outline(const Vec3& from, const Vec3& to, const Colour& colour);
     [[nodiscard]] Vec3f local(const Vec3& point) const { return narrow(point - drawing_.origin); }
 
@@ -59,7 +66,7 @@ private:
         std::vector<Vec3> position;
     };
 
-    Region region_;
+    ObstacleShapes obstacles_;
     Drawing drawing_;
     std::vector<PackedBody> packed_;
     std::optional<Ball> bodies_; ///< follows them slowly, so that shadows and haze do not jump

@@ -26,6 +26,8 @@ App::App(Screen& screen, Settings settings, const std::filesystem::path& scenes,
     state_.device = screen.renderer().device();
     // Several samples a pixel are too much for a renderer in software.
     state_.fine = state_.device.find("llvmpipe") == std::string::npos;
+    state_.volume = settings_.volume;
+    state_.muted = settings_.muted;
 }
 
 App::~App() = default;
@@ -38,9 +40,19 @@ void App::open(const std::filesystem::path& file) {
 
 void App::show(std::unique_ptr<Session> session) {
     remember_camera();
+    close_session();
     session_ = std::move(session);
+    ears_.begin_scene(session_->sound_settings());
     const auto known = settings_.cameras.find(key_of(session_->file()));
     if (known != settings_.cameras.end()) session_->rig().set_camera(known->second);
+}
+
+/// Its step may be a slow one, which the window does not wait for.
+void App::close_session() {
+    using namespace std::chrono_literals;
+    std::erase_if(closing_, [](const auto& closing) { return closing.wait_for(0s) == std::future_status::ready; });
+    if (session_)
+        closing_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
 }
 
 void App::finish_opening() {
@@ -63,10 +75,13 @@ Settings App::settings(int width, int height) {
     remember_camera();
     settings_.width = width;
     settings_.height = height;
+    settings_.volume = state_.volume;
+    settings_.muted = state_.muted;
     return settings_;
 }
 
 void App::frame(double seconds, int width, int height) {
+    const auto begin = std::chrono::steady_clock::now();
     constexpr double newest = 0.05; // of the mean
     state_.frame_seconds += (seconds - state_.frame_seconds) * newest;
     width_ = std::max(width, 1);
@@ -82,13 +97,26 @@ void App::frame(double seconds, int width, int height) {
     if (chosen) open(*chosen);
 
     obey_keys();
+    set_sound();
     if (session_) {
         obey_mouse(seconds);
+        const double before = session_->time();
         session_->advance(seconds, lockstep_);
+        hear(before, seconds);
     }
     input_.next_frame();
+    const bool still = stands_still();
+    state_.divisor = state_.fine || lockstep_ || still ? 1 : detail_.divisor();
     draw_picture(width_, height_);
     screen_.present(width_, height_);
+    if (!still) detail_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+bool App::stands_still() const {
+    if (!session_ || !session_->paused()) return false;
+    const Camera& camera = session_->rig().camera();
+    return session_->moment() == last_moment_.lock() && camera.position == last_camera_.position &&
+           camera.target == last_camera_.target;
 }
 
 void App::feed_interface(double seconds, int width, int height) {
@@ -110,6 +138,7 @@ void App::obey_keys() {
 void App::obey_key(Key key) {
     if (key == Key::f1) state_.help = !state_.help;
     if (key == Key::p) state_.hidden = !state_.hidden;
+    if (key == Key::m) state_.muted = !state_.muted;
     if (key == Key::b) state_.browser = !state_.browser;
     if (key == Key::escape && std::exchange(state_.help, false)) return;
     if (key == Key::escape && std::exchange(state_.browser, false)) return;
@@ -146,6 +175,18 @@ void App::obey_key(Key key) {
     }
 }
 
+void App::set_sound() {
+    ears_.set_volume(state_.muted ? 0 : state_.volume);
+    if (std::exchange(state_.try_sound, false)) ears_.try_again();
+    state_.silence = ears_.problem();
+}
+
+void App::hear(double before, double seconds) {
+    session_->hear(ears_.audible() && !state_.muted);
+    ears_.add(session_->take_strikes());
+    ears_.hear(before, session_->time(), seconds, session_->listener());
+}
+
 Place App::under_mouse() const {
     return {input_.mouse_x(), input_.mouse_y(), static_cast<double>(width_), static_cast<double>(height_)};
 }
@@ -168,7 +209,11 @@ void App::draw_picture(int width, int height) {
     Drawing& settings = session_->stage().settings();
     settings.shadows = state_.shadows;
     settings.occlusion = state_.shadows;
-    renderer.draw(session_->draw(), {width, height, supersample});
+    settings.line_scale = 1 / static_cast<float>(state_.divisor);
+    const Drawing& drawing = session_->draw();
+    renderer.draw(drawing, {std::max(width / state_.divisor, 1), std::max(height / state_.divisor, 1), supersample});
+    last_camera_ = drawing.camera;
+    last_moment_ = session_->moment();
 }
 
 std::map<std::string, double> App::facts() {
@@ -177,6 +222,10 @@ std::map<std::string, double> App::facts() {
                                         {"problem", state_.problem.empty() ? 0 : 1},
                                         {"help", state_.help ? 1 : 0},
                                         {"browser", state_.browser ? 1 : 0},
+                                        {"audible", ears_.audible() ? 1 : 0},
+                                        {"silence", state_.silence.empty() ? 0 : 1},
+                                        {"strikes_heard", static_cast<double>(ears_.heard())},
+                                        {"volume", state_.muted ? 0 : state_.volume},
                                         {"width", width_},
                                         {"height", height_}};
     if (!session_) return facts;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "viewer/render/renderer.hpp"
+#include "viewer/window/detail.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/input.hpp"
 #include "viewer/window/panels.hpp"
 #include "viewer/window/session.hpp"
@@ -14,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace carom::viewer {
 
@@ -43,12 +46,18 @@ public:
 
 private:
     void finish_opening();
+    void close_session();
     void remember_camera();
     void feed_interface(double seconds, int width, int height);
     void obey_keys();
     void obey_key(Key key);
     void obey_mouse(double seconds);
     void draw_picture(int width, int height);
+    /// What is shown is what the last picture showed.
+    [[nodiscard]] bool stands_still() const;
+    /// What has happened from `before` (s of the world) to what is shown now, in `seconds` of the wall clock.
+    void hear(double before, double seconds);
+    void set_sound();
     [[nodiscard]] Place under_mouse() const;
 
     Screen& screen_;
@@ -59,8 +68,13 @@ private:
     Panels panels_;
     PanelState state_;
     std::unique_ptr<Session> session_;
+    Ears ears_;
+    Detail detail_;
+    Camera last_camera_;
+    std::weak_ptr<const Moment> last_moment_;
     Stage empty_; ///< what is shown without a session
     std::future<std::unique_ptr<Session>> opening_;
+    std::vector<std::future<void>> closing_; ///< sessions that wait for the end of their last step
     int width_ = 1;
     int height_ = 1;
 };

@@ -1,7 +1,6 @@
 #include "viewer/window/browser.hpp"
 
 #include "scene/scene.hpp"
-#include "viewer/stage/bounds.hpp"
 #include "viewer/stage/camera_path.hpp"
 #include "viewer/stage/stage.hpp"
 
@@ -28,9 +27,9 @@ SceneAtStart scene_at_start(const std::filesystem::path& file) {
         Spectator spectator(scene.view.picture.colour_by);
         start.title = scene.title;
         start.moment = spectator.look(scene::make_world(scene), false);
-        start.region = scene.options.region;
-        const Ball ball = ball_to_see(start.region, ball_around(start.moment->position, *start.moment->radii));
-        start.camera = camera_at(scene.view.camera, 0, ball, up_of(scene.view.camera, scene.options.gravity));
+        start.obstacles = scene.options.obstacles;
+        start.camera = camera_at(scene.view.camera, 0, Stage(start.obstacles).to_see(*start.moment),
+                                 up_of(scene.view.camera, scene.options.gravity));
     } catch (const std::runtime_error& error) { // SceneError and carom::Error
         start.problem = error.what();
     }
@@ -58,7 +57,7 @@ void Browser::go_on(Screen& screen) {
     entry.scene = reading_.get();
     entry.known = true;
     if (entry.scene.moment) {
-        Stage stage(entry.scene.region);
+        Stage stage(entry.scene.obstacles);
         screen.renderer().draw(stage.draw(*entry.scene.moment, entry.scene.moment->end, entry.scene.camera),
                                {thumbnail_width, thumbnail_height, 2});
         entry.texture = screen.add_texture(screen.renderer().picture());

@@ -16,7 +16,7 @@ namespace carom::viewer {
 struct SceneAtStart {
     std::string title{};
     std::shared_ptr<const Moment> moment{}; ///< null if the scene was refused
-    Region region{};
+    std::vector<Obstacle> obstacles{};
     Camera camera{};
     std::string problem{};
 };

@@ -1,5 +1,7 @@
 #include "viewer/window/camera_rig.hpp"
 
+#include "viewer/stage/camera_path.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,14 +33,6 @@ constexpr double wheel_step = 0.88;   ///< of the distance, for a notch of the w
 constexpr double fly_speed = 0.7;     ///< sizes of the scene in a second
 
 } // namespace
-
-CameraAxes axes_of(const Camera& camera) {
-    const Vec3 forward = unit(camera.target - camera.position, {0, 1, 0});
-    Vec3 right = cross(forward, camera.up);
-    if (!(length(right) > 0)) right = cross(forward, Vec3{forward.y, forward.z, forward.x});
-    right = unit(right);
-    return {forward, right, cross(right, forward)};
-}
 
 void CameraRig::turn_around(double right, double up) {
     camera_.position = camera_.target + turned(camera_.position - camera_.target, camera_.up, right, up);

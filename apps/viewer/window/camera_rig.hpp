@@ -35,12 +35,4 @@ private:
     CameraMode mode_ = CameraMode::orbit;
 };
 
-/// The unit vectors of a camera.
-struct CameraAxes {
-    Vec3 forward;
-    Vec3 right;
-    Vec3 up;
-};
-CameraAxes axes_of(const Camera& camera);
-
 } // namespace carom::viewer

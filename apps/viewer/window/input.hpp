@@ -37,12 +37,13 @@ enum class Key : std::uint8_t {
     two,
     three,
     p,
+    m,
     shift
 };
 /// Their names in scripts, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 22> key_names{"space", "left", "right", "escape", "f1", "w",    "a", "s",
-                                                            "d",     "q",    "e",     "f",      "c",  "r",    "b", "h",
-                                                            "t",     "1",    "2",     "3",      "p",  "shift"};
+inline constexpr std::array<std::string_view, 23> key_names{"space", "left", "right", "escape", "f1", "w", "a",    "s",
+                                                            "d",     "q",    "e",     "f",      "c",  "r", "b",    "h",
+                                                            "t",     "1",    "2",     "3",      "p",  "m", "shift"};
 std::optional<Key> key_named(std::string_view name);
 
 class Input {

@@ -4,9 +4,8 @@
 
 #include <carom/time_of_impact.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <variant>
 #include <vector>
 
@@ -14,70 +13,84 @@ namespace carom::viewer {
 
 namespace {
 
-/// m: the sides of a box between faces that are there; without them it goes on for ever.
-struct Walls {
-    Vec3 low;
-    Vec3 high;
-};
+bool moves(const FaceMotion& motion) { return motion.velocity != 0 || motion.amplitude != 0; }
 
-Walls walls_of(const Box& box) {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    const auto bound = [&](std::size_t face, double place, double open) {
-        return box.faces[face].kind == FaceKind::reflecting ? place : open;
-    };
-    return {{bound(0, box.min.x, -far), bound(2, box.min.y, -far), bound(4, box.min.z, -far)},
-            {bound(1, box.max.x, far), bound(3, box.max.y, far), bound(5, box.max.z, far)}};
-}
-
-NextImpact next_face(const Region& region, const Body& body, const Vec3& gravity, double horizon) {
-    NextImpact next{no_impact, {}, -1};
+bool has_moving_faces(const Region& region) {
     if (const auto* box = std::get_if<Box>(&region)) {
-        const Walls walls = walls_of(*box);
-        const auto hit =
-            time_to_box_inside(body.position, body.velocity, gravity, body.radius, walls.low, walls.high, horizon);
-        next = {hit.time, {}, hit.face};
-    } else if (const auto* shell = std::get_if<Shell>(&region)) {
-        next = {time_to_shell_inside(body.position - shell->centre, body.velocity, gravity, shell->radius - body.radius,
-                                     horizon),
-                {},
-                0};
-    } else if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) {
-        for (std::size_t i = 0; i < planes->size(); ++i) {
-            const Vec3 normal = (*planes)[i].normal / length((*planes)[i].normal);
-            const double gap = dot(body.position - (*planes)[i].point, normal) - body.radius;
-            const double time = time_to_plane(gap, dot(body.velocity, normal), dot(gravity, normal), horizon);
-            if (time < next.in) next = {time, {}, static_cast<int>(i)};
-        }
+        return std::any_of(box->faces.begin(), box->faces.end(), [](const Face& face) { return moves(face.motion); });
     }
-    return next;
+    const auto* planes = std::get_if<std::vector<Plane>>(&region);
+    return planes != nullptr &&
+           std::any_of(planes->begin(), planes->end(), [](const Plane& plane) { return moves(plane.motion); });
 }
 
-} // namespace
-
-std::optional<NextImpact> next_impact(const World& world, BodyId id, double horizon) {
-    const Body body = world.get(id);
-    if (body.mass == infinite_mass || world.held(id)) return std::nullopt;
+/// The first impact with another body, before `soonest`.
+NextImpact next_body(const World& world, BodyId id, const Body& body, NextImpact soonest) {
     const std::vector<BodyId> ids = world.ids();
     std::vector<Vec3> position(ids.size());
     std::vector<Vec3> velocity(ids.size());
     std::vector<double> radius(ids.size());
     std::vector<double> mass(ids.size());
     world.get(ids, {.position = position, .velocity = velocity, .mass = mass, .radius = radius});
-
-    const Vec3& gravity = world.options().gravity;
     const Vec3 periods = periods_of(world.options().region);
-    NextImpact next = next_face(world.options().region, body, gravity, horizon);
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] == id) continue;
-        const bool still = mass[i] == infinite_mass || world.held(ids[i]);
+        const bool falls = mass[i] != infinite_mass && !world.held(ids[i]);
         const Vec3 way = shortest(position[i] - body.position, periods);
         const Vec3 relative_velocity = velocity[i] - body.velocity;
         const double contact = radius[i] + body.radius;
-        const double time = still ? time_to_spheres(way, relative_velocity, -gravity, contact, horizon)
-                                  : time_to_spheres(way, relative_velocity, contact, horizon);
-        if (time < next.in) next = {time, ids[i], -1};
+        const double time =
+            falls ? time_to_spheres(way, relative_velocity, contact, soonest.in)
+                  : time_to_spheres(way, relative_velocity, -world.options().gravity, contact, soonest.in);
+        if (time < soonest.in) soonest = {time, ids[i], -1};
     }
-    if (next.in == no_impact) return std::nullopt;
+    return soonest;
+}
+
+} // namespace
+
+/// A face that moves is somewhere else each time.
+void LookAhead::empty_world_like(const World& world) {
+    if (!alone_ || has_moving_faces(world.options().region)) {
+        alone_ = world;
+        alone_->remove(alone_->ids());
+        alone_->set_drag({});
+        alone_->set_attractors({});
+        alone_->set_recording(true);
+        alone_->set_work_cap(1);
+        alone_->set_threads(1);
+    }
+    alone_->set_gravity(world.options().gravity);
+}
+
+std::optional<NextImpact> LookAhead::try_alone(const World& world, const Body& body, double horizon) {
+    constexpr double longest = 1; // s, of a step: a body that comes to lie on something may not be met any more
+    empty_world_like(world);
+    const BodyId id = alone_->add(body, Overlap::accept);
+    const double start = alone_->time();
+    std::optional<NextImpact> found;
+    try {
+        while (!found && !alone_->held(id) && alone_->time() < start + horizon) {
+            const double begin = alone_->time() - start;
+            alone_->step(std::min(longest, horizon - begin));
+            if (alone_->impacts().empty()) continue;
+            const Impact& impact = alone_->impacts().front();
+            found = NextImpact{begin + impact.offset, {}, impact.face};
+        }
+    } catch (const Error&) { // it leaves the world, or a face runs over another one: nothing is met before
+        alone_.reset();
+        return std::nullopt;
+    }
+    alone_->remove(id);
+    return found;
+}
+
+std::optional<NextImpact> LookAhead::next_impact(const World& world, BodyId id, double horizon) {
+    const Body body = world.get(id);
+    if (body.mass == infinite_mass || world.held(id)) return std::nullopt;
+    const std::optional<NextImpact> face = try_alone(world, body, horizon);
+    const NextImpact next = next_body(world, id, body, face.value_or(NextImpact{horizon, {}, -1}));
+    if (!next.other.is_set() && !face) return std::nullopt;
     return next;
 }
 

@@ -114,6 +114,7 @@ void Panels::draw_control(Session& session, PanelState& state) {
     draw_time(session);
     ImGui::Separator();
     draw_view(session, state);
+    draw_sound(state);
     ImGui::Separator();
     draw_world(session);
     ImGui::Separator();
@@ -166,6 +167,20 @@ void Panels::draw_view(Session& session, PanelState& state) {
     check("shadows", state.shadows);
     ImGui::SameLine();
     check("fine", state.fine);
+}
+
+void Panels::draw_sound(PanelState& state) {
+    if (!state.silence.empty()) {
+        ImGui::TextDisabled("%s", state.silence.c_str());
+        state.try_sound = button("Retry");
+        return;
+    }
+    constexpr float width = 130; // pixels
+    ImGui::SetNextItemWidth(width);
+    slider("volume", state.volume, 0, 1, "%.2f");
+    widgets_["volume"].z = width;
+    ImGui::SameLine(0, 30);
+    check("mute", state.muted);
 }
 
 void Panels::draw_world(Session& session) {
@@ -271,7 +286,8 @@ void Panels::draw_scale(const Session& session) {
 void Panels::draw_browser(Browser& browser, PanelState& state, std::optional<std::filesystem::path>& chosen) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     constexpr float cell = Browser::thumbnail_width + 18.0F;
-    const float width = std::clamp(std::floor((size.x - control_width - 40) / cell), 1.0F, 4.0F) * cell + 24;
+    const float width = std::clamp(std::floor((size.x - control_width - 40) / cell), 1.0F, 4.0F) * cell + 24 +
+                        ImGui::GetStyle().ScrollbarSize;
     ImGui::SetNextWindowPos({control_width + 2 * margin, margin}, ImGuiCond_Appearing);
     ImGui::SetNextWindowSize({width, std::min(size.y - 2 * margin, 540.0F)}, ImGuiCond_Appearing);
     ImGui::Begin("scenes", &state.browser);
@@ -301,7 +317,7 @@ void Panels::draw_browser(Browser& browser, PanelState& state, std::optional<std
 }
 
 void Panels::draw_help(PanelState& state) {
-    constexpr std::array<std::pair<const char*, const char*>, 17> lines{{{"Space", "pause, go on"},
+    constexpr std::array<std::pair<const char*, const char*>, 18> lines{{{"Space", "pause, go on"},
                                                                          {"Right", "one step"},
                                                                          {"Left", "one step back"},
                                                                          {"R", "restart"},
@@ -315,6 +331,7 @@ void Panels::draw_help(PanelState& state) {
                                                                          {"F", "shoot at what is under the mouse"},
                                                                          {"C", "next meaning of colours"},
                                                                          {"T", "trails"},
+                                                                         {"M", "sound off, and on"},
                                                                          {"B", "scenes"},
                                                                          {"P", "panels away, and back"},
                                                                          {"Esc", "let go, close this"}}};
@@ -329,7 +346,8 @@ void Panels::draw_help(PanelState& state) {
     }
     ImGui::Separator();
     ImGui::TextDisabled("%s", state.device.c_str());
-    ImGui::TextDisabled("a frame takes %.1f ms", 1e3 * state.frame_seconds);
+    const std::string coarse = state.divisor > 1 ? fmt::format(", drawn at 1/{} of its size", state.divisor) : "";
+    ImGui::TextDisabled("a frame takes %.1f ms%s", 1e3 * state.frame_seconds, coarse.c_str());
     ImGui::End();
 }
 

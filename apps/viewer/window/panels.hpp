@@ -20,7 +20,12 @@ struct PanelState {
     bool help = false;
     bool browser = false;
     bool fine = true; ///< several samples for each pixel
+    int divisor = 1;  ///< the window is so many times as wide and high as its picture
     bool shadows = true;
+    double volume = 1; ///< 0 to 1
+    bool muted = false;
+    std::string silence{};  ///< why there is no sound; empty while there is
+    bool try_sound = false; ///< the user wants to try again
     std::string device{};
     double frame_seconds = 0; ///< of the wall clock, a mean
     std::string problem{};    ///< of opening a file
@@ -39,6 +44,7 @@ private:
     void draw_control(Session& session, PanelState& state);
     void draw_time(Session& session);
     void draw_view(Session& session, PanelState& state);
+    void draw_sound(PanelState& state);
     void draw_world(Session& session);
     void draw_picked(Session& session);
     void draw_measurements(Session& session);

@@ -1,6 +1,6 @@
 #include "viewer/window/picking.hpp"
 
-#include "viewer/window/camera_rig.hpp"
+#include "viewer/stage/camera_path.hpp"
 
 #include <algorithm>
 #include <cmath>

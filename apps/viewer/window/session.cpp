@@ -4,11 +4,13 @@
 #include "scene/checkpoint.hpp"
 #include "scene/scene.hpp"
 #include "viewer/stage/camera_path.hpp"
+#include "viewer/stage/hearing.hpp"
 
 #include <carom/base.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::viewer {
 
@@ -97,36 +99,47 @@ void Session::open_snapshot(const std::filesystem::path& file) {
 void Session::find_home(const scene::CameraSpec& spec) {
     moment_ = simulation_->moment();
     clock_ = moment_->end;
-    stage_ = Stage(simulation_->region());
-    ball_ = ball_to_see(simulation_->region(), ball_around(moment_->position, *moment_->radii));
+    stage_ = Stage(simulation_->obstacles());
+    ball_ = stage_.to_see(*moment_);
     home_ = camera_at(spec, 0, ball_, up_of(spec, gravity));
     rig_.set_camera(home_);
 }
 
 void Session::advance(double seconds, bool wait) {
-    if (!paused_ && seconds > 0) {
-        const double wanted = clock_ + seconds * time_scale;
-        // What the next frame will show is computed while this one is drawn.
-        simulation_->run_to(wait ? wanted : wanted + seconds * time_scale);
-        if (wait) simulation_->wait_until_idle();
-        // The world is computed up to the moment's end; one that is not there yet is not waited for.
-        const double before = clock_;
-        clock_ = std::min(wanted, std::max(clock_, simulation_->moment()->end));
-        lag_ += wanted - clock_;
-        constexpr double newest = 0.05; // of the mean
-        reached_ += ((clock_ - before) / seconds - reached_) * newest;
+    if (wait) simulation_->wait_until_idle();
+    show_now();
+    const bool restarting = moment_->era != era_;
+    if (!paused_ && !restarting && seconds > 0) {
+        go_on(seconds, wait);
     } else {
-        if (wait) simulation_->wait_until_idle();
         lag_ = 0;
     }
     show_now();
     take_plots();
 }
 
+void Session::go_on(double seconds, bool wait) {
+    const double wanted = clock_ + seconds * time_scale;
+    // What the next frame will show is computed while this one is drawn.
+    simulation_->run_to(wait ? wanted : wanted + seconds * time_scale);
+    if (wait) simulation_->wait_until_idle();
+    // The world is computed up to the moment's end; one that is not there yet is not waited for.
+    const double before = clock_;
+    clock_ = std::min(wanted, std::max(clock_, simulation_->moment()->end));
+    lag_ += wanted - clock_;
+    constexpr double newest = 0.05; // of the mean
+    reached_ += ((clock_ - before) / seconds - reached_) * newest;
+}
+
 /// While paused the picture is that of the last step or change.
 void Session::show_now() {
+    const bool is_new_era = moment_->era != simulation_->moment()->era;
     moment_ = simulation_->moment();
-    if (paused_ || clock_ > moment_->end) clock_ = moment_->end;
+    if (is_new_era) {
+        rows_.clear();
+        stage_.restart();
+    }
+    if (paused_ || is_new_era || clock_ > moment_->end) clock_ = moment_->end;
 }
 
 void Session::take_plots() {
@@ -150,11 +163,7 @@ void Session::step_back() {
 
 void Session::restart() {
     simulation_->restart();
-    simulation_->wait_until_idle();
-    moment_ = simulation_->moment();
-    clock_ = moment_->end;
-    rows_.clear();
-    stage_.restart();
+    ++era_;
 }
 
 const Drawing& Session::draw() {
@@ -165,6 +174,18 @@ const Drawing& Session::draw() {
         }
     }
     return stage_.draw(*moment_, clock_, rig_.camera());
+}
+
+void Session::hear(bool wanted) {
+    if (std::exchange(hears_, wanted) != wanted) simulation_->hear(wanted);
+}
+
+sound::SoundSettings Session::sound_settings() const { return heard_from(home_, simulation_->sound_settings()); }
+
+sound::Listener Session::listener() const {
+    const Status status = simulation_->status();
+    const bool follows = rig_.mode() == CameraMode::follow && status.picked;
+    return listener_at(rig_.camera(), follows ? status.picked->body.velocity : Vec3{});
 }
 
 void Session::pick_at(const Place& place) { pick(body_at(*moment_, clock_, rig_.camera(), place)); }

@@ -66,6 +66,17 @@ public:
     [[nodiscard]] double trails() const { return trails_; }
     /// @}
 
+    /// \name What is heard
+    /// @{
+    /// Impacts are to be heard, or are not.
+    void hear(bool wanted);
+    [[nodiscard]] std::vector<TimedStrike> take_strikes() { return simulation_->take_strikes(); }
+    /// Those that suit the scene as it begins, seen from where the camera began.
+    [[nodiscard]] sound::SoundSettings sound_settings() const;
+    /// Ears at the camera; they move with the body that it follows.
+    [[nodiscard]] sound::Listener listener() const;
+    /// @}
+
     /// \name What the user changes in the world
     /// @{
     void set_gravity(const Vec3& gravity);
@@ -88,6 +99,7 @@ private:
     void open_scene(const std::filesystem::path& file);
     void open_snapshot(const std::filesystem::path& file);
     void find_home(const scene::CameraSpec& spec);
+    void go_on(double seconds, bool wait);
     void show_now();
     void take_plots();
 
@@ -103,10 +115,12 @@ private:
     double clock_ = 0;
     double lag_ = 0;
     double reached_ = 0;
+    std::uint64_t era_ = 0; ///< of the moments to show: earlier ones are from before a restart
     bool paused_ = false;
     std::optional<BodyId> picked_;
     scene::ColourBy colour_by_ = scene::ColourBy::material;
     bool forces_ = false;
+    bool hears_ = false;
     double trails_ = 0;
 };
 

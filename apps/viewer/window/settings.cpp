@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -65,6 +66,8 @@ Settings load_settings(const std::filesystem::path& file) {
         const nlohmann::json json = nlohmann::json::parse(text, text + bytes.size());
         settings.width = side_of(json, "width", settings.width);
         settings.height = side_of(json, "height", settings.height);
+        settings.volume = std::clamp(json.value("volume", settings.volume), 0.0, 1.0);
+        settings.muted = json.value("muted", settings.muted);
         for (const auto& [scene, camera] : json.at("cameras").items()) settings.cameras[scene] = camera_of(camera);
     } catch (const Error&) { // there is no file yet, or none that makes sense
         return settings;
@@ -78,6 +81,8 @@ void save_settings(const Settings& settings, const std::filesystem::path& file) 
     nlohmann::json json;
     json["width"] = settings.width;
     json["height"] = settings.height;
+    json["volume"] = settings.volume;
+    json["muted"] = settings.muted;
     json["cameras"] = nlohmann::json::object();
     for (const auto& [scene, camera] : settings.cameras) {
         json["cameras"][scene] = {{"position", to_json(camera.position)},

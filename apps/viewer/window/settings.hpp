@@ -1,5 +1,6 @@
 /// \file
-/// What the viewer remembers from one time to the next: the window, and the camera of each scene.
+/// What the viewer remembers from one time to the next: the window, the volume, and the camera of each
+/// scene.
 #pragma once
 
 #include "viewer/render/drawing.hpp"
@@ -14,6 +15,8 @@ namespace carom::viewer {
 struct Settings {
     int width = 1280; ///< of the window
     int height = 800;
+    double volume = 0.7; ///< 0 to 1
+    bool muted = false;
     std::map<std::string, Camera> cameras{}; ///< by the scene's file
 };
 

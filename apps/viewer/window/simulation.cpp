@@ -14,8 +14,9 @@ constexpr std::size_t most_history = std::size_t{1} << 29U; ///< bytes
 constexpr std::uint64_t steps_between_snapshots = 20;
 /// What is computed ahead of the picture is shown that often, so that it costs little.
 constexpr std::chrono::milliseconds between_moments{8};
+constexpr std::size_t most_strikes = 65536;
 /// s of the world that the look ahead of a picked body goes.
-constexpr double look_ahead = 100;
+constexpr double horizon = 100;
 
 scene::Scene to_be_viewed(scene::Scene scene) {
     scene.options.interpolation = true;
@@ -33,7 +34,8 @@ Simulation::Simulation(const scene::Scene& scene)
     : Simulation(scene::make_world(to_be_viewed(scene)), scene.run.dt, scene.view.picture.colour_by) {}
 
 Simulation::Simulation(World world, double dt, scene::ColourBy colour_by)
-    : world_(std::move(world)), dt_(dt), region_(world_.options().region), spectator_(colour_by),
+    : world_(std::move(world)), dt_(dt), obstacles_(world_.options().obstacles),
+      sound_settings_(sound::settings_for(world_)), spectator_(colour_by),
       history_(world_, most_history, steps_between_snapshots), goal_(world_.time()) {
     publish();
     thread_ = std::thread([this] { live(); });
@@ -112,13 +114,17 @@ void Simulation::do_step() {
     const double impacts = static_cast<double>(report.impacts + report.face_impacts);
     const PlotRow row{world_.time(), energy.kinetic, energy.total(),
                       report.advanced > 0 ? impacts / report.advanced : 0};
+    const std::vector<TimedStrike> strikes = hears_ ? timed_strikes_of(world_) : std::vector<TimedStrike>{};
     const std::scoped_lock lock(mutex_);
     rows_.push_back(row);
+    if (strikes_.size() > most_strikes) strikes_.clear(); // nobody has taken them for long
+    strikes_.insert(strikes_.end(), strikes.begin(), strikes.end());
 }
 
 void Simulation::publish() {
     if (picked_ && !world_.contains(*picked_)) picked_.reset();
     std::shared_ptr<Moment> next = spectator_.look(world_, forces_, std::move(spare_));
+    next->era = era_;
     Status status;
     status.time = world_.time();
     status.steps = world_.step_count();
@@ -129,7 +135,7 @@ void Simulation::publish() {
     status.step_seconds = step_seconds_;
     if (picked_) {
         status.picked = PickedBody{*picked_, world_.get(*picked_), world_.held(*picked_),
-                                   next_impact(world_, *picked_, look_ahead)};
+                                   look_ahead_.next_impact(world_, *picked_, horizon)};
     }
     const std::scoped_lock lock(mutex_);
     status.problem = status_.problem;
@@ -142,6 +148,7 @@ void Simulation::set_back(World world) {
     world_ = std::move(world);
     spectator_.bodies_changed();
     const std::scoped_lock lock(mutex_);
+    strikes_.clear();
     goal_ = world_.time();
 }
 
@@ -176,6 +183,7 @@ void Simulation::restart() {
     add_order([this](World& /*world*/) {
         set_back(history_.start());
         history_ = History(world_, most_history, steps_between_snapshots);
+        ++era_;
     });
 }
 
@@ -195,6 +203,10 @@ void Simulation::pick(std::optional<BodyId> id) {
     add_order([this, id](World& /*world*/) { picked_ = id; });
 }
 
+void Simulation::hear(bool wanted) {
+    add_order([this, wanted](World& /*world*/) { hears_ = wanted; });
+}
+
 void Simulation::show_forces(bool forces) {
     add_order([this, forces](World& /*world*/) { forces_ = forces; });
 }
@@ -212,6 +224,11 @@ Status Simulation::status() const {
 std::vector<PlotRow> Simulation::take_rows() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(rows_, {});
+}
+
+std::vector<TimedStrike> Simulation::take_strikes() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(strikes_, {});
 }
 
 void Simulation::wait_until_idle() {

@@ -4,6 +4,7 @@
 
 #include "scene/scene.hpp"
 #include "viewer/stage/moment.hpp"
+#include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
 #include "viewer/window/next_impact.hpp"
 
@@ -16,6 +17,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,19 +65,23 @@ public:
 
     [[nodiscard]] double dt() const { return dt_; } ///< s
     /// Not shared with the thread: what never changes.
-    [[nodiscard]] const Region& region() const { return region_; }
+    [[nodiscard]] std::span<const Obstacle> obstacles() const { return obstacles_; }
+    /// Those that suit the start.
+    [[nodiscard]] const sound::SoundSettings& sound_settings() const { return sound_settings_; }
 
     /// \name Orders; each returns at once
     /// @{
     void run_to(double time); ///< s
     void step();
     void step_back();
-    void restart();
+    void restart(); ///< Moment::era tells when it is done
     /// Runs between two steps. What it throws becomes Status::problem.
     void change(std::function<void(World&)> order);
     void colour_by(scene::ColourBy by);
     void pick(std::optional<BodyId> id);
     void show_forces(bool forces);
+    /// Strikes are kept for take_strikes() from now on, or are not.
+    void hear(bool wanted);
     /// @}
 
     /// What was seen last.
@@ -83,6 +89,8 @@ public:
     [[nodiscard]] Status status() const;
     /// Rows since the last call; after a step back the first one is earlier than the last one before.
     [[nodiscard]] std::vector<PlotRow> take_rows();
+    /// Strikes since the last call, if they are wanted.
+    [[nodiscard]] std::vector<TimedStrike> take_strikes();
     /// Waits until all orders are done.
     void wait_until_idle();
 
@@ -101,11 +109,15 @@ private:
     // Of the thread alone.
     World world_;
     double dt_;
-    Region region_;
+    std::vector<Obstacle> obstacles_;
+    sound::SoundSettings sound_settings_;
     Spectator spectator_;
     History history_;
     std::optional<BodyId> picked_;
+    LookAhead look_ahead_;
     bool forces_ = false;
+    bool hears_ = false;
+    std::uint64_t era_ = 0; ///< restarts so far
     double step_seconds_ = 0;
     std::shared_ptr<Moment> spare_; ///< memory of a moment that nobody looks at any more
 
@@ -121,6 +133,7 @@ private:
     std::shared_ptr<Moment> moment_;
     Status status_;
     std::vector<PlotRow> rows_;
+    std::vector<TimedStrike> strikes_;
     std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "scene/atomic_file.hpp"
 #include "viewer/window/app.hpp"
+#include "viewer/window/pace.hpp"
 #include "viewer/window/script.hpp"
 #include "viewer/window/settings.hpp"
 
@@ -16,7 +17,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 namespace carom::viewer {
@@ -74,6 +74,7 @@ std::optional<Key> key_of(int key) {
                                                                           {GLFW_KEY_2, Key::two},
                                                                           {GLFW_KEY_3, Key::three},
                                                                           {GLFW_KEY_P, Key::p},
+                                                                          {GLFW_KEY_M, Key::m},
                                                                           {GLFW_KEY_LEFT_SHIFT, Key::shift},
                                                                           {GLFW_KEY_RIGHT_SHIFT, Key::shift}}};
     for (const auto& [code, name] : keys) {
@@ -138,12 +139,6 @@ WindowHandle make_window(const Settings& settings, const std::string& title) {
 std::filesystem::path scenes_beside(const std::filesystem::path& file) {
     if (file.extension() != ".toml") return "scenes";
     return file.has_parent_path() ? file.parent_path() : ".";
-}
-
-/// At most 60 frames a second also where no monitor sets the pace.
-void pace(std::chrono::steady_clock::time_point frame_began) {
-    constexpr std::chrono::microseconds frame_time{16'000};
-    std::this_thread::sleep_until(frame_began + frame_time);
 }
 
 void show(GLFWwindow* window, App& app, const std::function<bool()>& stop) {

@@ -21,6 +21,7 @@ namespace {
 constexpr GLuint bodies_binding = 0;
 constexpr GLuint radii_binding = 1;
 constexpr GLuint lines_binding = 2;
+constexpr GLuint corners_binding = 3;
 /// @}
 
 /// A line as the shader reads it.
@@ -29,6 +30,12 @@ struct LineBlock {
     std::array<float, 4> to;
     std::array<float, 4> colour_from; ///< linear
     std::array<float, 4> colour_to;
+};
+
+/// A corner as the shader reads it.
+struct CornerBlock {
+    std::array<float, 4> place;
+    std::array<float, 4> normal;
 };
 
 void check_version() {
@@ -82,6 +89,8 @@ GlRenderer::Programs::Programs()
       panel(make_program("panel", {shaders::frame, shaders::panel_vertex}, {shaders::frame, shaders::panel_fragment})),
       hollow(
           make_program("hollow", {shaders::frame, shaders::screen_vertex}, {shaders::frame, shaders::hollow_fragment})),
+      shape(make_program("shape", {shaders::frame, shaders::shape_vertex}, {shaders::frame, shaders::shape_fragment})),
+      glass(make_program("glass", {shaders::frame, shaders::shape_vertex}, {shaders::frame, shaders::glass_fragment})),
       occlusion(make_program("occlusion", {shaders::frame, shaders::screen_vertex},
                              {shaders::frame, shaders::occlusion_fragment})),
       blur(make_program("blur", {shaders::frame, shaders::screen_vertex}, {shaders::frame, shaders::blur_fragment})),
@@ -141,6 +150,25 @@ void GlRenderer::upload(const Drawing& drawing) {
                             drawing.palette.data());
         palette_version_ = drawing.palette_version;
     }
+    upload_shapes(drawing.shapes);
+}
+
+/// Those that are plain, then those of glass.
+void GlRenderer::upload_shapes(const Shapes& shapes) {
+    if (shapes.plain.empty() && shapes.glass.empty()) return;
+    if (shapes_version_ != shapes.version) {
+        std::vector<CornerBlock> blocks;
+        blocks.reserve(shapes.plain.size() + shapes.glass.size());
+        for (const auto& corners : {shapes.plain, shapes.glass}) {
+            for (const Corner& corner : corners) {
+                blocks.push_back({{corner.place.x, corner.place.y, corner.place.z, 1},
+                                  {corner.normal.x, corner.normal.y, corner.normal.z, 0}});
+            }
+        }
+        corners_.update(blocks.data(), blocks.size() * sizeof(CornerBlock));
+        shapes_version_ = shapes.version;
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, corners_binding, corners_.handle.get());
 }
 
 void GlRenderer::draw(const Drawing& drawing, const PictureSize& size) {
@@ -164,9 +192,10 @@ void GlRenderer::draw(const Drawing& drawing, const PictureSize& size) {
     if (drawing.occlusion) find_occlusion();
     light_surfaces();
     glEnable(GL_DEPTH_TEST);
-    draw_lines(drawing.lines);
+    draw_glass(drawing.shapes);
+    draw_lines(drawing.lines, drawing.line_scale);
     glDisable(GL_DEPTH_TEST);
-    draw_lines(drawing.lines_on_top);
+    draw_lines(drawing.lines_on_top, drawing.line_scale);
     glBindTextureUnit(0, targets_->light.get());
     draw_screen(programs_.resolve, targets_->resolving, size.width, size.height);
     count_errors();
@@ -202,6 +231,7 @@ void GlRenderer::draw_surfaces(const Drawing& drawing) {
     glUseProgram(programs_.sphere.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * drawing.bodies.size()));
     draw_panels(drawing);
+    draw_shapes(drawing.shapes);
     if (drawing.hollow) draw_hollow(*drawing.hollow);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DEPTH_CLAMP);
@@ -228,6 +258,43 @@ void GlRenderer::draw_hollow(const Hollow& hollow) {
     glUniform4f(0, hollow.centre.x, hollow.centre.y, hollow.centre.z, hollow.radius);
     glUniform4fv(1, 1, colour.data());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlRenderer::draw_shapes(const Shapes& shapes) {
+    const std::array<float, 4> colour = linear(shapes.colour);
+    const auto plain = static_cast<GLsizei>(shapes.plain.size());
+    glUseProgram(programs_.shape.get());
+    glUniform3fv(0, 1, &shapes.anchor.x);
+    glUniform4fv(1, 1, colour.data());
+    glDrawArrays(GL_TRIANGLES, 0, plain);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glDrawArrays(GL_TRIANGLES, plain, static_cast<GLsizei>(shapes.glass.size()));
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+}
+
+void GlRenderer::draw_glass(const Shapes& shapes) {
+    if (shapes.glass.empty()) return;
+    const std::array<float, 4> colour = linear(shapes.colour);
+    begin_blending();
+    glEnable(GL_CULL_FACE);
+    glUseProgram(programs_.glass.get());
+    glUniform3fv(0, 1, &shapes.anchor.x);
+    glUniform4fv(1, 1, colour.data());
+    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(shapes.plain.size()), static_cast<GLsizei>(shapes.glass.size()));
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+}
+
+/// What follows is seen through, and hidden by what is in front of it.
+void GlRenderer::begin_blending() {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets_->lighting.get());
+    glViewport(0, 0, targets_->width, targets_->height);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 void GlRenderer::draw_screen(const ProgramHandle& program, const FramebufferHandle& target, int width, int height) {
@@ -258,24 +325,19 @@ void GlRenderer::light_surfaces() {
     draw_screen(programs_.light, targets_->lighting, targets_->width, targets_->height);
 }
 
-void GlRenderer::draw_lines(const std::vector<Line>& lines) {
+void GlRenderer::draw_lines(const std::vector<Line>& lines, float scale) {
     if (lines.empty()) return;
     std::vector<LineBlock> blocks;
     blocks.reserve(lines.size());
     for (const Line& line : lines) {
-        blocks.push_back({{line.from.x, line.from.y, line.from.z, line.width},
+        blocks.push_back({{line.from.x, line.from.y, line.from.z, line.width * scale},
                           {line.to.x, line.to.y, line.to.z, 0},
                           linear(line.colour_from),
                           linear(line.colour_to)});
     }
     lines_.update(blocks.data(), blocks.size() * sizeof(LineBlock));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, lines_binding, lines_.handle.get());
-    glBindFramebuffer(GL_FRAMEBUFFER, targets_->lighting.get());
-    glViewport(0, 0, targets_->width, targets_->height);
-    glDepthFunc(GL_GEQUAL);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    begin_blending();
     glUseProgram(programs_.line.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * lines.size()));
     glDisable(GL_BLEND);

@@ -39,6 +39,8 @@ private:
         ProgramHandle sphere;
         ProgramHandle panel;
         ProgramHandle hollow;
+        ProgramHandle shape;
+        ProgramHandle glass;
         ProgramHandle occlusion;
         ProgramHandle blur;
         ProgramHandle light;
@@ -53,13 +55,17 @@ private:
     };
 
     void upload(const Drawing& drawing);
+    void upload_shapes(const Shapes& shapes);
     void draw_shadows(const Drawing& drawing);
     void draw_surfaces(const Drawing& drawing);
     void draw_panels(const Drawing& drawing);
     void draw_hollow(const Hollow& hollow);
+    void draw_shapes(const Shapes& shapes);
+    void draw_glass(const Shapes& shapes);
     void find_occlusion();
     void light_surfaces();
-    void draw_lines(const std::vector<Line>& lines);
+    void begin_blending();
+    void draw_lines(const std::vector<Line>& lines, float scale);
     void draw_screen(const ProgramHandle& program, const FramebufferHandle& target, int width, int height);
 
     std::unique_ptr<Context> context_; ///< ends last
@@ -69,8 +75,10 @@ private:
     Buffer bodies_;
     Buffer radii_;
     Buffer lines_;
+    Buffer corners_;
     std::optional<std::uint64_t> radii_version_;
     std::optional<std::uint64_t> palette_version_;
+    std::optional<std::uint64_t> shapes_version_;
     TextureHandle palette_;
     TextureHandle shadows_;
     FramebufferHandle shadowing_;

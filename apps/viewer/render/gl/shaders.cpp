@@ -168,6 +168,52 @@ void main() {
 }
 )";
 
+const std::string_view shape_vertex = R"(
+struct Corner { vec4 place; vec4 normal; };
+layout(std430, binding = 3) readonly buffer Corners { Corner corners[]; };
+layout(location = 0) uniform vec3 anchor;
+out vec3 point;
+out vec3 outward;
+
+void main() {
+    const Corner corner = corners[gl_VertexID];
+    point = (view * vec4(anchor + corner.place.xyz, 1)).xyz;
+    outward = mat3(view) * corner.normal.xyz;
+    gl_Position = projection * vec4(point, 1);
+}
+)";
+
+const std::string_view shape_fragment = R"(
+layout(location = 1) uniform vec4 colour;
+in vec3 point;
+in vec3 outward;
+layout(location = 0) out vec4 albedo;
+layout(location = 1) out vec4 normal;
+
+void main() {
+    albedo = colour;
+    normal = vec4(normalize(outward) * (gl_FrontFacing ? 1 : -1), 0);
+}
+)";
+
+const std::string_view glass_fragment = R"(
+layout(location = 1) uniform vec4 colour;
+in vec3 point;
+in vec3 outward;
+layout(location = 0) out vec4 light;
+
+// The more aslant one looks through it, the less one sees.
+void main() {
+    const vec3 to_eye = normalize(-point);
+    const vec3 side = normalize(outward);
+    const float aslant = 1 - abs(dot(side, to_eye));
+    const float shine = pow(max(dot(side, normalize(to_light.xyz + to_eye)), 0), 40);
+    const float brightness = 0.45 + 0.55 * max(dot(side, to_light.xyz), 0);
+    const float opacity = (0.07 + 0.35 * aslant * aslant * aslant + 0.15 * shine) * (1 - haze_at(length(point)));
+    light = vec4(colour.rgb * brightness + 0.5 * shine, opacity);
+}
+)";
+
 const std::string_view screen_vertex = R"(
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4 - 1, 0, 1); }
 )";

@@ -14,6 +14,9 @@ extern const std::string_view panel_vertex;
 extern const std::string_view panel_fragment;
 extern const std::string_view screen_vertex; ///< one triangle over the whole picture
 extern const std::string_view hollow_fragment;
+extern const std::string_view shape_vertex;
+extern const std::string_view shape_fragment;
+extern const std::string_view glass_fragment;
 extern const std::string_view occlusion_fragment;
 extern const std::string_view blur_fragment;
 extern const std::string_view light_fragment;
