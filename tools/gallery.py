@@ -23,7 +23,7 @@ PAGE = GALLERY / "README.md"
 FIGURES = GALLERY / "figures.json"
 PICTURE = ("--size", "720x405", "--supersample", "3")
 # Films, and how many seconds of the world they show.
-FILMS = {"heap": 8, "hopper": 3, "newtons_cradle": 12, "tower": 4}
+FILMS = {"drum": 6, "heap": 8, "hopper": 3, "newtons_cradle": 12, "tower": 4}
 FILM = ("--size", "480x270", "--fps", "24", "--supersample", "2")
 
 

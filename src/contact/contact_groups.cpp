@@ -12,6 +12,10 @@
 #include <algorithm>
 #include <string_view>
 
+// clang-format off: it comes after Highway, which says for which instruction set
+#include "space/simd_transpose.hpp"
+// clang-format on
+
 // No multiply-add here, and no Min or Max: the sign of their zeros depends on the machine.
 
 HWY_BEFORE_NAMESPACE();
@@ -121,20 +125,6 @@ HWY_INLINE HWY_ATTR void store_blocks(D lanes, hn::Vec<D> v, F&& at, std::size_t
         store_blocks(half, hn::LowerHalf(half, v), at, first);
         store_blocks(half, hn::UpperHalf(half, v), at, first + blocks);
     }
-}
-
-/// Turns rows into columns, or columns into rows, in each block.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE HWY_ATTR void transpose(D lanes, V& a, V& b, V& c, V& d) {
-    const hn::RepartitionToWide<D> pairs;
-    const auto ab = hn::BitCast(pairs, hn::InterleaveLower(lanes, a, b));
-    const auto cd = hn::BitCast(pairs, hn::InterleaveLower(lanes, c, d));
-    const auto ab_upper = hn::BitCast(pairs, hn::InterleaveUpper(lanes, a, b));
-    const auto cd_upper = hn::BitCast(pairs, hn::InterleaveUpper(lanes, c, d));
-    a = hn::BitCast(lanes, hn::InterleaveLower(pairs, ab, cd));
-    b = hn::BitCast(lanes, hn::InterleaveUpper(pairs, ab, cd));
-    c = hn::BitCast(lanes, hn::InterleaveLower(pairs, ab_upper, cd_upper));
-    d = hn::BitCast(lanes, hn::InterleaveUpper(pairs, ab_upper, cd_upper));
 }
 
 template <class D>

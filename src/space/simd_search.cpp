@@ -12,6 +12,10 @@
 
 #include <cstddef>
 
+// clang-format off: it comes after Highway, which says for which instruction set
+#include "space/simd_transpose.hpp"
+// clang-format on
+
 // Where a vector has one lane only, the plain searches below do.
 #if HWY_TARGET != HWY_SCALAR
 
@@ -122,20 +126,6 @@ struct TrackWords {
     V reach;
     std::array<V, 3> speed;
 };
-
-/// Turns rows of four into columns, in each block of four lanes.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE HWY_ATTR void transpose(D floats, V& a, V& b, V& c, V& d) {
-    const hn::RepartitionToWide<D> pairs;
-    const auto ab = hn::BitCast(pairs, hn::InterleaveLower(floats, a, b));
-    const auto cd = hn::BitCast(pairs, hn::InterleaveLower(floats, c, d));
-    const auto ab_upper = hn::BitCast(pairs, hn::InterleaveUpper(floats, a, b));
-    const auto cd_upper = hn::BitCast(pairs, hn::InterleaveUpper(floats, c, d));
-    a = hn::BitCast(floats, hn::InterleaveLower(pairs, ab, cd));
-    b = hn::BitCast(floats, hn::InterleaveUpper(pairs, ab, cd));
-    c = hn::BitCast(floats, hn::InterleaveLower(pairs, ab_upper, cd_upper));
-    d = hn::BitCast(floats, hn::InterleaveUpper(pairs, ab_upper, cd_upper));
-}
 
 /// The tracks of as many bodies of a list as a vector has lanes; the last one again behind the list's end. Whole tracks
 /// are loaded and transposed, which is faster than gathering them word by word.
