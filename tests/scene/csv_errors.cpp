@@ -24,8 +24,8 @@ const std::vector<CsvMistake> csv_mistakes{
     {"x,y,z\n", "b.csv:1: there are no bodies below the names of the columns"},
     {"x,y\n1,2\n", "b.csv:1: column 'z': is missing"},
     {"x,y,z,x\n", "b.csv:1: column 'x': is there twice"},
-    {"x,y,z,speed\n",
-     "b.csv:1: column 'speed': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, friction, growth, got 'speed'"},
+    {"x,y,z,speed\n", "b.csv:1: column 'speed': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, "
+                      "friction, growth, got 'speed'"},
     {"x,y,z,frictoin\n", "b.csv:1: column 'frictoin': must be one of x, y, z, vx, vy, vz, mass, radius, restitution, "
                          "friction, growth, got 'frictoin'; did you mean 'friction'?"},
     {"# c\n\nx,y,z\n1,2,3\n1,2\n", "b.csv:5: must have 3 values, got 2"},
