@@ -298,8 +298,9 @@ void Pile<Real>::turn_back() {
         const ContactName& name = list_.names()[turn.number];
         const ContactGroup<Real>& group = list_.group_of(name);
         const std::uint32_t a = group.a[name.lane()];
-        if ((marks_[a] & gone) != 0) continue;
-        const Real all = group.impulse[name.lane()] * movers_[a].inverse_mass;
+        const Real impulse = group.impulse[name.lane()];
+        if ((marks_[a] & gone) != 0 || !(impulse > 0)) continue;
+        const Real all = impulse * movers_[a].inverse_mass;
         state_.bodies.motion[bodies_[a]].v += turn.way * (all - static_cast<Real>(0.5) * turn.deflection);
     }
 }

@@ -381,6 +381,23 @@ TEST(Obstacles, ABallSwingsInACylinder) {
     EXPECT_NEAR((highest + 1.5) / (1.5 * (1 - std::cos(0.5))), 1, 0.01);
 }
 
+// A ball that slides down the outside of a cylinder leaves it where cos(angle) is 2/3 of that at which it began. It may
+// be held on for a piece of h = 1/480 s longer, or less, in which its speed changes by g h.
+TEST(Obstacles, ABallLeavesACylinderWhereItShould) {
+    constexpr double reach = 2.5;
+    for (const double start : {0.05, 0.5}) {
+        World world({.gravity = {0, 0, -g},
+                     .obstacles = {Frustum{
+                         .base = {-4, 0, 0}, .axis = {1, 0, 0}, .height = 8, .base_radius = 2, .top_radius = 2}}});
+        const BodyId id = world.add(
+            {.position = {0, reach * std::sin(start), reach * std::cos(start)}, .radius = 0.5, .restitution = 0.5});
+        for (int k = 0; k < 600 && world.get(id).position.z > 0.5; ++k) world.step(dt);
+        const double leaves = 2.0 / 3 * std::cos(start);
+        const double speed = std::sqrt(2 * g * reach * (std::cos(start) - leaves));
+        EXPECT_NEAR(world.get(id).velocity.y, speed * leaves, g / 480) << start;
+    }
+}
+
 TEST(Obstacles, BodiesRunOutOfAHopper) {
     World world({.gravity = {0, 0, -g},
                  .region = std::vector<carom::Plane>{{.point = {0, 0, -2}, .surface = {.restitution = 0}}},
