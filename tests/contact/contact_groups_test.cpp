@@ -159,6 +159,28 @@ TYPED_TEST(ContactGroups, FrictionBrakesAsFarAsItCanAndTellsWhatItTook) {
     });
 }
 
+TYPED_TEST(ContactGroups, TellsWhatPressesHardest) {
+    this->for_each_target([this] {
+        Scene<TypeParam> scene;
+        constexpr std::size_t pressed_before = 3;
+        for (std::size_t k = 0; k < group_size; ++k) {
+            scene.bodies[k].v = {static_cast<TypeParam>(0.25 * static_cast<double>(k)), 0, 0};
+            scene.bodies[k + group_size].inverse_mass = static_cast<TypeParam>(0.5);
+            scene.group.mass[k] = static_cast<TypeParam>(2.0 / 3);
+        }
+        scene.places[pressed_before].pressing = scene.places[pressed_before + group_size].pressing = 1000;
+        scene.solve_hard(false);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            // m/s^2: an impulse of 2/3 kg times the approach, in a piece, on 1 kg and on 2 kg.
+            const double force = 2.0 / 3 * 0.25 * static_cast<double>(k) * frequency;
+            const bool is_more = k == pressed_before;
+            const double error = frequency * this->rounding;
+            EXPECT_NEAR(static_cast<double>(scene.places[k].pressing), is_more ? 1000 : force, error);
+            EXPECT_NEAR(static_cast<double>(scene.places[k + group_size].pressing), is_more ? 1000 : force / 2, error);
+        }
+    });
+}
+
 /// Contacts at random, among them closed, given and with anchors.
 template <class Real>
 Scene<Real> random_scene(std::mt19937& engine) {
@@ -171,6 +193,8 @@ Scene<Real> random_scene(std::mt19937& engine) {
     };
     for (std::size_t k = 0; k < group_size; ++k) {
         carom::core::ContactGroup<Real>& group = scene.group;
+        group.a[k] = static_cast<std::uint32_t>(5 * k % movers);
+        group.b[k] = static_cast<std::uint32_t>(5 * (k + group_size) % movers);
         put_into(group.apart, k, carom::detail::direction(vector(1)) * number(0.999, 1.001));
         put_into(group.normal, k, carom::detail::direction(vector(1)));
         put_into(group.rub, k, vector(0.1));
