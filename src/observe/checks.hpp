@@ -2,6 +2,8 @@
 /// What observers refuse.
 #pragma once
 
+#include "collision/component.hpp"
+
 #include <carom/base.hpp>
 
 #include <array>
@@ -41,7 +43,6 @@ inline void check_interval(double low, double high) {
     if (!(low < high)) throw Error(ErrorCode::out_of_range, "high", "must be greater than low, got " + shown(high));
 }
 
-/// The component of a vector along an axis, 0 to 2.
-inline double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+using detail::component;
 
 } // namespace carom::observe

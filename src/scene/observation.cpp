@@ -99,10 +99,9 @@ void write(Table& table, const SlabPacking& slab) { table.add("packing", "1", sl
 void write(Table& table, const Correlations& correlations) {
     for (std::size_t lag = 0; lag < correlations.lags(); ++lag) {
         const double at = correlations.time(lag);
-        const Estimate displacement = correlations.squared_displacement(lag);
         // A run may be shorter than the longest lag.
         if (lag > 0 && at == 0) break;
-        table.add_at(at, "squared_displacement", "m^2", displacement);
+        table.add_at(at, "squared_displacement", "m^2", correlations.squared_displacement(lag));
         table.add_at(at, "velocity_correlation", "m^2/s^2", correlations.velocity_correlation(lag));
     }
 }

@@ -1,5 +1,7 @@
 #include "scene/observation_reader.hpp"
 
+#include "collision/component.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +11,8 @@ namespace carom::scene {
 
 namespace {
 
+using detail::component;
+
 constexpr std::uint64_t most_bins = 1'000'000;
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
@@ -16,8 +20,6 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 /// more.
 constexpr std::uint64_t usual_interval = 50;
 constexpr std::uint64_t usual_interval_of_pairs = 200;
-
-double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 class ObservationReader {
 public:

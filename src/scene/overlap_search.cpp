@@ -1,5 +1,7 @@
 #include "scene/overlap_search.hpp"
 
+#include "collision/component.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,9 +17,7 @@ namespace {
 /// A cell is this many largest radii wide: then the partners of most bodies lie in one or two cells along each axis.
 constexpr double radii_per_cell = 4;
 
-double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-double& component(Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+using detail::component;
 
 /// Which level a radius belongs to; points have one of their own. Radii of a level differ by less than a factor of 4:
 /// fewer levels to look through, against fewer bodies to a cell.

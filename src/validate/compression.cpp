@@ -53,9 +53,8 @@ Findings run(std::size_t per_axis, double rate) {
     const double radius = world.get(ids.front()).radius;
     const double packing = start_packing * 8 * radius * radius * radius;
     const std::string setup =
-        fmt::format("{} elastic spheres in a periodic cube grow at {} of the thermal speed, {:.2g} "
-                    "impacts",
-                    ids.size(), rate, static_cast<double>(world.ledger().impacts));
+        fmt::format("{} elastic spheres in a periodic cube grow at {} of the thermal speed, {:.2g} impacts", ids.size(),
+                    rate, static_cast<double>(world.ledger().impacts));
     Findings findings;
     findings.rows = {
         exact_row({"packing after compression", setup, "Lubachevsky & Stillinger, J. Stat. Phys. 60, 561 (1990)"},

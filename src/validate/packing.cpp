@@ -22,6 +22,7 @@ constexpr double gravity = 9.81;      // m/s^2
 constexpr double start_packing = 0.3; // of the spheres in the air
 constexpr double dt = 1.0 / 60;       // s
 constexpr double watched = 2;         // s at the end
+constexpr double slab = 0.1;          // m, thickness of the slabs of the profile
 constexpr double reach_of_edges = 3;  // m, within which floor and surface order the spheres
 
 struct Pour {
@@ -73,9 +74,8 @@ struct Settled {
 };
 
 std::vector<SlabPacking> make_slabs(double top, double area) {
-    constexpr double thickness = 0.1;
     std::vector<SlabPacking> slabs;
-    for (int k = 0; k * thickness < top + 1; ++k) slabs.emplace_back(2, k * thickness, (k + 1) * thickness, area);
+    for (int k = 0; k * slab < top + 1; ++k) slabs.emplace_back(2, k * slab, (k + 1) * slab, area);
     return slabs;
 }
 
@@ -96,7 +96,7 @@ Settled watch(const Pour& pour) {
         world.step(dt);
         sample.read(world);
         bulk.observe(sample);
-        for (SlabPacking& slab : slabs) slab.observe(sample);
+        for (SlabPacking& packing : slabs) packing.observe(sample);
         coordination.observe(sample);
         const std::vector<Contact> now = world.contacts();
         double force = 0;
@@ -110,7 +110,7 @@ Settled watch(const Pour& pour) {
                     .load = load.estimate().value,
                     .profile = {}};
     for (std::size_t k = 0; k < slabs.size(); ++k) {
-        settled.profile.push_back({0.1 * (static_cast<double>(k) + 0.5), slabs[k].fraction().value});
+        settled.profile.push_back({slab * (static_cast<double>(k) + 0.5), slabs[k].fraction().value});
     }
     return settled;
 }

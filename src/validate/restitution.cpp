@@ -38,8 +38,9 @@ double measured(const RestitutionLaw& law, double speed) {
     return (world.get(b).velocity.x - world.get(a).velocity.x) / speed;
 }
 
-// -- Viscoelastic spheres, and ice
-// -------------------------------------------------------------------------------------
+// ---------------------------------------------------------------------------------------------------------------------
+// Viscoelastic spheres, and ice
+// ---------------------------------------------------------------------------------------------------------------------
 
 constexpr Viscoelastic elastomer{.dissipation = 1e-4, .modulus = 1e7};
 
@@ -91,8 +92,9 @@ Findings run_ice() {
     return findings;
 }
 
-// -- A gas of viscoelastic spheres
-// -------------------------------------------------------------------------------------
+// ---------------------------------------------------------------------------------------------------------------------
+// A gas of viscoelastic spheres
+// ---------------------------------------------------------------------------------------------------------------------
 
 constexpr double packing = 0.01;
 constexpr double start_x = 0.05;  // at an approach of 1 m/s

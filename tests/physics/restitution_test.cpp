@@ -25,12 +25,13 @@ double by_power(double v) { return std::min(1.0, 0.5 * std::pow(v, -0.1)); }
 
 WorldOptions with_law(const RestitutionLaw& law) { return {.materials = {{.key = 1, .restitution = law}}}; }
 
-/// Speed after an impact by the speed before, of a ball that hits something along -z at v.
+/// Speed along z after an impact by that before, of a ball that glances off something below the origin at v along -z.
 double measured(WorldOptions options, double v, const std::vector<Body>& others = {}) {
     options.threads = 1;
     World world(options);
     for (const Body& other : others) world.add(other);
-    const BodyId ball = world.add({.position = {0, 0, 1}, .velocity = {0, 0, -v}, .restitution = 0.1, .material = 1});
+    const BodyId ball =
+        world.add({.position = {-1.5, 0, 1}, .velocity = {3 * v, 0, -v}, .restitution = 0.1, .material = 1});
     world.step(1 / v);
     EXPECT_EQ(world.impacts().size(), 1U);
     return world.get(ball).velocity.z / v;
@@ -53,11 +54,12 @@ TEST(RestitutionLaws, HoldAtFacesStaticBodiesAndObstacles) {
     }
 }
 
-/// Approach v of two bodies with those materials; the ratio of the relative speeds.
+/// Two bodies with those materials meet at v along x, and glance; the ratio of the relative speeds along x.
 double of_pair(WorldOptions options, double v, std::uint32_t a, std::uint32_t b) {
     options.threads = 1;
     World world(options);
-    const BodyId left = world.add({.position = {-1, 0, 0}, .velocity = {v, 0, 0}, .restitution = 0.25, .material = a});
+    const BodyId left =
+        world.add({.position = {-1, -2, 0}, .velocity = {v, 2 * v, 0}, .restitution = 0.25, .material = a});
     const BodyId right = world.add({.position = {1, 0, 0}, .mass = 3, .restitution = 0.25, .material = b});
     world.step(2 / v);
     return (world.get(right).velocity.x - world.get(left).velocity.x) / v;

@@ -1,9 +1,12 @@
 // Scene files that are refused.
+#include "body_mistakes.hpp"
+#include "generator_mistakes.hpp"
+#include "other_mistakes.hpp"
 #include "refusal.hpp"
 #include "scene/scene.hpp"
 #include "scene/text_file.hpp"
-#include "scene_mistakes.hpp"
 #include "temporary_folder.hpp"
+#include "world_mistakes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +19,12 @@ namespace carom::scene {
 namespace {
 
 TEST(SceneErrors, NameFileLineKeyAndWhatIsAllowed) {
-    for (const Mistake& mistake : mistakes) {
-        const std::string message = refusal([&] { parse_scene(mistake.text, "s.toml"); });
-        EXPECT_EQ(message.substr(0, mistake.message.size()), mistake.message) << mistake.text << message;
-        EXPECT_NE(message.find(mistake.also), std::string::npos) << mistake.text << message;
+    for (const auto* table : {&world_mistakes, &body_mistakes, &generator_mistakes, &other_mistakes}) {
+        for (const Mistake& mistake : *table) {
+            const std::string message = refusal([&] { parse_scene(mistake.text, "s.toml"); });
+            EXPECT_EQ(message.substr(0, mistake.message.size()), mistake.message) << mistake.text << message;
+            EXPECT_NE(message.find(mistake.also), std::string::npos) << mistake.text << message;
+        }
     }
 }
 

@@ -16,18 +16,19 @@
 namespace carom::scene {
 namespace {
 
-/// Elastic spheres in a box that is periodic along x; all observers look at them.
+/// Elastic spheres in a box that is periodic along x, `side` m there, 1 m more along y and 2 m more along z; all
+/// observers look at them.
 std::string gas(int count, double side, const std::string& every) {
-    const std::string length = std::to_string(side);
-    std::string text = "seed = 3\n[run]\ndt = 0.02\n[region]\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [" + length +
-                       ", " + length + ", " + length + "]\nrestitution = 1\nfaces = { x = \"periodic\" }\n" +
+    std::string text = "seed = 3\n[run]\ndt = 0.02\n[region]\nkind = \"box\"\nmin = [0, 1, 2]\nmax = [" +
+                       std::to_string(side) + ", " + std::to_string(side + 2) + ", " + std::to_string(side + 4) +
+                       "]\nrestitution = 1\nfaces = { x = \"periodic\" }\n" +
                        "[[bodies]]\ngenerator = \"jittered_lattice\"\ncount = " + std::to_string(count) +
                        "\nvelocity = { distribution = \"maxwell\", kT = 1 }\n";
     for (const char* observer :
          {"kind = \"energies\"", "kind = \"impacts\"", "kind = \"speeds\"\nmost = 5\nbins = 25",
           "kind = \"profile\"\naxis = \"y\"\nslices = 4", "kind = \"radial_distribution\"\nmost = 2\nshells = 10",
           "kind = \"coordination\"\ngap = 0.1",
-          "kind = \"slab_packing\"\nname = \"slab\"\naxis = \"z\"\nlow = 1\nhigh = 3",
+          "kind = \"slab_packing\"\nname = \"slab\"\naxis = \"z\"\nlow = 3\nhigh = 5",
           "kind = \"correlations\"\nlags = 5\norigin_every = 1"}) {
         text += std::string("[[observe]]\n") + observer + "\n" + every;
     }
@@ -78,10 +79,10 @@ TEST_F(Observations, AreThoseOfTheLibrary) {
     Energies energies;
     ImpactStatistics impacts(other);
     Speeds speeds(5, 25);
-    Profile profile(1, 0, 8, 4, 64);
+    Profile profile(1, 1, 10, 4, 80);
     RadialDistribution radial(2, 10);
     Coordination coordination(0.1);
-    SlabPacking slab(2, 1, 3, 64);
+    SlabPacking slab(2, 3, 5, 72);
     Correlations correlations(5, 1);
     Sample sample;
     for (std::uint64_t step = 1; step <= 200; ++step) {
@@ -115,9 +116,9 @@ TEST_F(Observations, AreThoseOfTheLibrary) {
     expect("speeds", "temperature", "", speeds.temperature());
     expect("speeds", "a2", "", speeds.a2());
     expect("speeds", "speed_density", "0.1", speeds.density(0));
-    expect("profile", "density", "1", profile.density(0));
-    expect("profile", "temperature", "7", profile.temperature(3));
-    expect("profile", "velocity_x", "3", profile.velocity(1, 0));
+    expect("profile", "density", "2.125", profile.density(0));
+    expect("profile", "temperature", "8.875", profile.temperature(3));
+    expect("profile", "velocity_x", "4.375", profile.velocity(1, 0));
     expect("radial_distribution", "g", "1.1", radial.g(5));
     expect("coordination", "coordination", "", coordination.mean());
     expect("coordination", "coordination_without_rattlers", "", coordination.mean_without_rattlers());
@@ -171,7 +172,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 TEST_F(Observations, CostLessThanATenthOfTheSteps) {
-    const Scene scene = parse_scene(gas(10'000, 37.4, ""), "s.toml");
+    const Scene scene = parse_scene(gas(10'000, 36.4, ""), "s.toml");
     std::vector<Observation> observations = scene.observations;
     World world = make_world(scene);
     world.set_threads(1);

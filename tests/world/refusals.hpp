@@ -32,6 +32,11 @@ inline const char* name_of(Precision precision) {
 class BothPrecisions : public ::testing::TestWithParam<Precision> {
 protected:
     [[nodiscard]] static bool is_single() { return GetParam() == Precision::single_precision; }
+    /// Twice the largest relative rounding of what the world keeps.
+    [[nodiscard]] static double kept_eps() {
+        return is_single() ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                           : std::numeric_limits<double>::epsilon();
+    }
     [[nodiscard]] static World open_world() { return World({.precision = GetParam()}); }
     [[nodiscard]] static World world_with_floor(double gravity = -10) {
         return World({.gravity = {0, 0, gravity}, .region = std::vector<Plane>{{}}, .precision = GetParam()});
