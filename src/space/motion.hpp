@@ -2,6 +2,8 @@
 /// How a body's motion is kept: an integer position, a velocity, and the time at which both hold.
 #pragma once
 
+#include "collision/component.hpp"
+
 #include <carom/time_of_impact.hpp>
 
 #include <cmath>
@@ -32,7 +34,7 @@ struct Int3 {
     }
 };
 
-constexpr double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+using detail::component;
 constexpr std::int64_t component(const Int3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 constexpr std::int64_t& component(Int3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
