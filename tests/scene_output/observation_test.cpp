@@ -27,7 +27,7 @@ std::string gas(int count, double side, const std::string& every) {
     for (const char* observer :
          {"kind = \"energies\"", "kind = \"impacts\"", "kind = \"speeds\"\nmost = 5\nbins = 25",
           "kind = \"profile\"\naxis = \"y\"\nslices = 4", "kind = \"radial_distribution\"\nmost = 2\nshells = 10",
-          "kind = \"coordination\"\ngap = 0.1",
+          "kind = \"coordination\"\ngap = 0.5",
           "kind = \"slab_packing\"\nname = \"slab\"\naxis = \"z\"\nlow = 3\nhigh = 5",
           "kind = \"correlations\"\nlags = 5\norigin_every = 1"}) {
         text += std::string("[[observe]]\n") + observer + "\n" + every;
@@ -65,6 +65,7 @@ protected:
         const auto found = lines_.find({observer, quantity, at});
         ASSERT_NE(found, lines_.end()) << observer << ' ' << quantity << ' ' << at;
         EXPECT_EQ(std::stod(found->second.first), estimate.value) << observer << ' ' << quantity;
+        ASSERT_FALSE(found->second.second.empty()) << observer << ' ' << quantity << ": too few samples for an error";
         EXPECT_EQ(std::stod(found->second.second), estimate.standard_error) << observer << ' ' << quantity;
     }
 
@@ -81,7 +82,7 @@ TEST_F(Observations, AreThoseOfTheLibrary) {
     Speeds speeds(5, 25);
     Profile profile(1, 1, 10, 4, 80);
     RadialDistribution radial(2, 10);
-    Coordination coordination(0.1);
+    Coordination coordination(0.5);
     SlabPacking slab(2, 3, 5, 72);
     Correlations correlations(5, 1);
     Sample sample;
