@@ -171,6 +171,14 @@ Vec3 pull_on(const State<Real>& state, Index i) {
     return detail::wide(state.bodies.loads[i].pull);
 }
 
+/// 1/s^2: acceleration by an attractor, per metre of the way to it, whose square is `distance_squared`, m^2. Anything
+/// finite where there is no way.
+inline double pull_of(const PointField& field, double distance_squared) {
+    const double softened = distance_squared + field.softening * field.softening;
+    const double divisible = softened > 0 ? softened : 1; // chosen before the division, or loops are not vectorised
+    return field.strength / (divisible * std::sqrt(divisible));
+}
+
 /// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.
 template <class Real>
 Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
@@ -178,8 +186,7 @@ Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
     for (const PointField& field : state.laws.fields) {
         if (field.carrier == slot) continue;
         const Vec3 d = to_metres(field.x - x, state.resolution);
-        const double distance_squared = length_squared(d) + field.softening * field.softening;
-        if (distance_squared > 0) sum += d * (field.strength / (distance_squared * std::sqrt(distance_squared)));
+        sum += d * pull_of(field, length_squared(d));
     }
     return sum;
 }

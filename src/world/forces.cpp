@@ -25,6 +25,28 @@ double drag_factor(const Drag& drag, double speed, double duration) {
     return resistance > 0 ? std::min(decay / resistance, 2.0) : 2.0;
 }
 
+/// So many bodies in a row are attracted together.
+constexpr std::size_t row = 32;
+
+/// attraction() of `count` <= row bodies from the `first` on: one after another each would wait for the root and the
+/// division of the one before.
+template <class Real>
+std::array<Vec3, row> attractions(const State<Real>& state, std::size_t first, std::size_t count) {
+    std::array<Vec3, row> sums{};
+    std::array<Vec3, row> d{};
+    std::array<double, row> pulls{};
+    for (const PointField& field : state.laws.fields) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool carries = state.bodies.slot[first + k] == field.carrier;
+            d[k] = carries ? Vec3{} : to_metres(field.x - state.bodies.motion[first + k].x, state.resolution);
+        }
+        for (std::size_t k = 0; k < count; ++k) pulls[k] = length_squared(d[k]);
+        for (std::size_t k = 0; k < count; ++k) pulls[k] = pull_of(field, pulls[k]);
+        for (std::size_t k = 0; k < count; ++k) sums[k] += d[k] * pulls[k];
+    }
+    return sums;
+}
+
 } // namespace
 
 template <class Real>
@@ -62,14 +84,20 @@ void Engine<Real>::attract(double duration) {
     if (state_.laws.fields.empty()) return;
     Bodies<Real>& bodies = state_.bodies;
     std::array<ExactVectorSum, most_parts> impulses{};
-    for_each_in_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t k) {
-        const auto i = static_cast<Index>(k);
-        if (is_prescribed(bodies.kind[i])) return;
-        Vec3 change = attraction(state_, i) * duration;
-        if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
-        const Vec3 before = velocity_of(bodies.motion[i]);
-        bodies.motion[i].v = rounded<Real>(before + change);
-        impulses[part].add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.mass[i]));
+    for_parts(*executor_, bodies.size(), kick_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += row) {
+            const std::size_t count = std::min(row, end - first);
+            const std::array<Vec3, row> pulls = attractions(state_, first, count);
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto i = static_cast<Index>(first + k);
+                if (is_prescribed(bodies.kind[i])) continue;
+                Vec3 change = pulls[k] * duration;
+                if (bodies.kind[i] == Kind::held) change = kick_along_supports(state_, i, change);
+                const Vec3 before = velocity_of(bodies.motion[i]);
+                bodies.motion[i].v = rounded<Real>(before + change);
+                impulses[part].add((velocity_of(bodies.motion[i]) - before) * static_cast<double>(bodies.mass[i]));
+            }
+        }
     });
     for (std::size_t part = 1; part < most_parts; ++part) impulses[0].add(impulses[part]);
     state_.books.outer_impulse.add(impulses[0].value());

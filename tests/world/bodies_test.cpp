@@ -436,6 +436,34 @@ TEST_P(Bodies, ACarriedAttractorMovesWithItsBodyAndSparesIt) {
     EXPECT_NEAR(v.y, -0.5 * 4 * 100 / std::pow(10100, 1.5), 1e-5);
 }
 
+TEST_P(Bodies, EachOfManyIsPulledByAllAttractorsButItsOwn) {
+    World world = open_world();
+    std::vector<BodyId> ids;
+    for (std::size_t k = 0; k < 70; ++k) {
+        const auto x = static_cast<double>(k);
+        ids.push_back(world.add({.position = {x, 0.25 * (x - 30) * (x - 30), -0.5 * x}, .radius = 0.01}));
+    }
+    const std::array attractors{Attractor{.strength = 9, .body = ids[40]},
+                                Attractor{.position = world.get(ids[50]).position, .strength = -4, .softening = 0.5},
+                                Attractor{.position = {3, 4, 5}, .strength = 7, .softening = 2}};
+    world.set_attractors(attractors);
+    constexpr double dt = 1e-4;
+    world.step(dt);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const Body body = world.get(ids[k]);
+        Vec3 expected{};
+        for (const Attractor& attractor : attractors) {
+            if (attractor.body == ids[k]) continue;
+            const Vec3 d =
+                (attractor.body.is_set() ? world.get(attractor.body).position : attractor.position) - body.position;
+            const double r = std::hypot(length(d), attractor.softening);
+            expected += d * (attractor.strength / (r * r * r));
+        }
+        // Within a step bodies move by some 1e-8 m, and nobody but its own is nearer than 1 m to an attractor.
+        EXPECT_LE(length(body.velocity / dt - expected), 1e-6 * length(expected)) << k;
+    }
+}
+
 TEST_P(Bodies, ImpulsesAndVelocityChangesAdd) {
     World world = open_world();
     const BodyId a = world.add({.velocity = {1, 0, 0}, .mass = 4});
