@@ -44,7 +44,7 @@ struct Body {
     double friction = 0;         ///< Coulomb's mu >= 0; two bodies use sqrt(mu_a mu_b)
     std::uint32_t material = 0;  ///< key into the world's materials and material rules; has no other effect
     std::uint64_t user_data = 0; ///< yours; kept in snapshots, no part of the hash
-    double growth = 0;           ///< m/s, of the radius; 0 with obstacles; a step to a negative radius is refused
+    double growth = 0;           ///< m/s, of the radius; a step to a negative radius is refused
 };
 
 /// Columns of many bodies to read from: the primary way in. Either all bodies' values or, if empty, none: then

@@ -3,6 +3,8 @@
 /// turns round an axis.
 #pragma once
 
+#include "collision/growing_sphere.hpp"
+
 #include <carom/time_of_impact.hpp>
 
 #include <algorithm>
@@ -219,13 +221,16 @@ private:
 /// the surface would end, if that is later. Both never pass the first touch, and the planes close in on it like
 /// Newton's method.
 ///
+/// The distance at which the two touch may grow, at a constant rate of any sign: then the planes come towards the path
+/// by as much.
+///
 /// A surface tells how a point sees it, and by how much (m) a neighbour that it is joined to is nearer: what a
 /// neighbour hides cannot be touched.
 template <class Surface>
 class SurfaceMarch {
 public:
-    SurfaceMarch(const Surface& surface, const Parabola& path, double contact_distance, double horizon)
-        : surface_(surface), path_(path), contact_distance_(contact_distance), horizon_(horizon),
+    SurfaceMarch(const Surface& surface, const Parabola& path, double contact_distance, double growth, double horizon)
+        : surface_(surface), path_(path), contact_distance_(contact_distance), growth_(growth), horizon_(horizon),
           level_(contact_distance), sight_(surface.sight(path.position)) {}
 
     double first_touch() {
@@ -247,8 +252,8 @@ public:
                 return no_impact;
             }
             go_to(time_ + step);
-            const bool touches = sight_.distance <= level_ || step <= settled * time_;
-            if (touches && takes_touch(dot(sight_.normal, path_.velocity_at(time_)) < 0)) {
+            const bool touches = sight_.distance <= level_ + grown() || step <= settled * time_;
+            if (touches && takes_touch(dot(sight_.normal, path_.velocity_at(time_)) < growth_)) {
                 return time_;
             }
         }
@@ -261,8 +266,11 @@ private:
         sight_ = surface_.sight(path_.position_at(time));
     }
 
+    /// m, by how much all distances at which something counts as a touch have grown.
+    [[nodiscard]] double grown() const { return growth_ * time_; }
+
     [[nodiscard]] bool begins_to_approach() const {
-        const double speed = dot(sight_.normal, path_.velocity);
+        const double speed = dot(sight_.normal, path_.velocity) - growth_;
         return speed < 0 ||
                (speed == 0 && dot(sight_.normal, path_.acceleration) + surface_.bending(sight_, path_.velocity) < 0);
     }
@@ -274,7 +282,7 @@ private:
         if (approaches && hidden == 0) {
             return true;
         }
-        level_ = std::min(level_, sight_.distance);
+        level_ = std::min(level_, sight_.distance - grown());
         if (hidden > 0 || time_ > 0) {
             level_ -= std::max(rounding_at(p), hidden / 2);
         }
@@ -282,7 +290,9 @@ private:
     }
 
     /// m, more than the distance may be wrong.
-    [[nodiscard]] double rounding_at(const Vec3& p) const { return 0x1p-50 * (length(p) + contact_distance_); }
+    [[nodiscard]] double rounding_at(const Vec3& p) const {
+        return 0x1p-50 * (length(p) + contact_distance_ + grown());
+    }
 
     /// Of a path that began in touch, and parted: goes on to where it can get clear at the earliest, if that is within
     /// `most` s. The distance is nowhere more than that from the point that is nearest now. A path along the surface
@@ -294,21 +304,25 @@ private:
             if (most == no_impact) {
                 return false;
             }
-            const auto halfway = surface_.sight(path_.position_at(time_ + most / 2));
-            if (!(halfway.distance > contact_distance_)) {
+            const double halfway = time_ + most / 2;
+            const double contact = contact_distance_ + growth_ * halfway;
+            if (!(surface_.sight(path_.position_at(halfway)).distance > contact)) {
                 return false;
             }
-            go_to(time_ + most / 2);
+            go_to(halfway);
             level_ = contact_distance_;
             return true;
         }
-        const double step = shell_inside(
-            {sight_.normal * sight_.distance, path_.velocity_at(time_), path_.acceleration}, contact_distance_, most);
+        const Parabola around{sight_.normal * sight_.distance, path_.velocity_at(time_), path_.acceleration};
+        const double contact = contact_distance_ + grown();
+        const double step = growth_ == 0 ? shell_inside(around, contact, most)
+                                         : time_to_shell_growing(around.position, around.velocity, around.acceleration,
+                                                                 contact, -growth_, most);
         if (!(step < most)) {
             return false;
         }
         go_to(time_ + step);
-        if (sight_.distance + rounding_at(p) >= contact_distance_) {
+        if (sight_.distance + rounding_at(p) >= contact_distance_ + grown()) {
             level_ = contact_distance_;
         }
         return true;
@@ -317,35 +331,38 @@ private:
     /// s in which the path comes nowhere nearer than the level.
     [[nodiscard]] double safe_time() const {
         const Parabola here{path_.position_at(time_), path_.velocity_at(time_), path_.acceleration};
-        const double gap = sight_.distance - level_;
+        const double gap = sight_.distance - (level_ + grown());
         const double left = horizon_ - time_;
         const double trusted = std::min(left, surface_.trusted_time(sight_, here));
         const double sag = surface_.sag(sight_, here, trusted);
         const double to_plane = sag == no_impact ? 0
-                                                 : plane(gap, dot(sight_.normal, here.velocity),
+                                                 : plane(gap, dot(sight_.normal, here.velocity) - growth_,
                                                          dot(sight_.normal, here.acceleration) - sag, trusted);
         const double to_end = to_plane == no_impact && trusted < left ? trusted : to_plane;
-        return std::max(to_end, plane(gap, -length(here.velocity), -length(here.acceleration), left));
+        return std::max(to_end, plane(gap, -length(here.velocity) - growth_, -length(here.acceleration), left));
     }
 
     const Surface& surface_;
     Parabola path_;
-    double contact_distance_;
+    double contact_distance_; ///< m, at first
+    double growth_;           ///< m/s
     double horizon_;
-    double level_; ///< m, the distance that counts as a touch
+    double level_; ///< m, the distance that counts as a touch, less what it has grown by
     double time_ = 0;
     int clear_steps_ = 0;
     decltype(surface_.sight(Vec3{})) sight_;
 };
 
+/// The horizon is finite where there is growth (m/s), and the contact distance (m) stays positive up to it.
 template <class Surface>
-double time_to_surface(const Surface& surface, const Parabola& path, double contact_distance, double horizon) {
-    return SurfaceMarch<Surface>(surface, path, contact_distance, horizon).first_touch();
+double time_to_surface(const Surface& surface, const Parabola& path, double contact_distance, double growth,
+                       double horizon) {
+    return SurfaceMarch<Surface>(surface, path, contact_distance, growth, horizon).first_touch();
 }
 
 template <class T, class Surface>
 SurfaceImpact<T> surface_impact(const Surface& surface, const Parabola& path, double radius, double horizon) {
-    const double time = time_to_surface(surface, path, radius, horizon);
+    const double time = time_to_surface(surface, path, radius, 0, horizon);
     if (time == no_impact) {
         return {};
     }

@@ -236,8 +236,9 @@ auto Pile<Real>::surface_velocity(const ContactName& name, const Vec3& normal) c
     }
     if (state_.bounds.is_facet(name.wall())) {
         const Motion<Real>& m = bodies.motion[body];
-        return detail::narrow<Real>(state_.bounds.obstacles()->surface_velocity(
-            name.wall() - state_.bounds.first_facet(), m.x, {}, static_cast<double>(m.radius), normal));
+        const std::uint32_t facet = name.wall() - state_.bounds.first_facet();
+        return detail::narrow<Real>(
+            grown + state_.bounds.obstacles()->surface_velocity(facet, m.x, {}, static_cast<double>(m.radius), normal));
     }
     const Bounds::Wall& wall = state_.bounds.walls()[name.wall()];
     if (!wall.is_driven) return detail::narrow<Real>(grown);
@@ -417,7 +418,9 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const std::uint32_t b = group.b[name.lane()];
     if (((marks_[a] | marks_[b]) & gone) != 0) return false;
     // What moves as prescribed may do so in another way soon; but what turns is where it is.
-    if (name.is_driven && !(name.is_wall() && state_.bounds.is_facet(name.wall()))) return !std::isinf(gap);
+    const bool only_turns = name.is_wall() && state_.bounds.is_facet(name.wall()) &&
+                            growth_of(state_.bodies, state_.bodies.slots[name.slot]) == 0;
+    if (name.is_driven && !only_turns) return !std::isinf(gap);
     if (!is_closing(name)) return false;
     // The normal turns on the way.
     const double closing = length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v));
@@ -433,7 +436,8 @@ bool Pile<Real>::may_sink(const ContactName& name) const {
     if ((marks_[a] & gone) != 0) return false;
     const auto radius = static_cast<double>(state_.bodies.motion[bodies_[a]].radius);
     const double deepest = (1 - deepest_in_surface) * state_.bounds.obstacles()->contact_distance(radius);
-    const double way = 1.001 * length(detail::wide(movers_[a].v)) * piece_ + 2 * state_.resolution.metres;
+    const double speed = length(detail::wide(movers_[a].v)) + std::abs(growth_of(state_.bodies, bodies_[a]));
+    const double way = 1.001 * speed * piece_ + 2 * state_.resolution.metres;
     return way >= static_cast<double>(group.gap[name.lane()]) + deepest;
 }
 

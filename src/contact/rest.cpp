@@ -147,14 +147,16 @@ Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3
 
 template <class Real>
 Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
-                         const Vec3& d, const Vec3& velocity) {
+                         const Vec3& d, const Vec3& velocity, double growth) {
     const std::uint32_t facet = wall - state.bounds.first_facet();
     const Obstacles& obstacles = *state.bounds.obstacles();
     return {.code = Support::wall_bit | wall,
             .normal = touch.normal,
             .bend = obstacles.bend(facet, motion.x, d, velocity),
+            .is_driven = growth != 0,
             .velocity =
-                obstacles.surface_velocity(facet, motion.x, d, static_cast<double>(motion.radius), touch.normal)};
+                obstacles.surface_velocity(facet, motion.x, d, static_cast<double>(motion.radius), touch.normal) -
+                touch.normal * growth};
 }
 
 template <class Real>
@@ -296,7 +298,7 @@ void release_from(Bodies<Real>& bodies, std::uint32_t slot) {
 #define CAROM_INSTANTIATE(Real)                                                                                        \
     template Support support_by_wall(const State<Real>&, std::uint32_t, const Vec3&, const Motion<Real>&, double);     \
     template Support support_by_facet(const State<Real>&, std::uint32_t, const Touch&, const Motion<Real>&,            \
-                                      const Vec3&, const Vec3&);                                                       \
+                                      const Vec3&, const Vec3&, double);                                               \
     template Support support_by_body(std::uint32_t, const Vec3&, const Motion<Real>&, const Motion<Real>&, double);    \
     template Pressure pressure_on(const State<Real>&, const Motion<Real>&, std::uint32_t, const Support&,              \
                                   const Vec3&);                                                                        \

@@ -100,7 +100,7 @@ Support support_by_wall(const State<Real>& state, std::uint32_t wall, const Vec3
                         double growth);
 template <class Real>
 Support support_by_facet(const State<Real>& state, std::uint32_t wall, const Touch& touch, const Motion<Real>& motion,
-                         const Vec3& d, const Vec3& velocity);
+                         const Vec3& d, const Vec3& velocity, double growth);
 template <class Real>
 Support support_by_body(std::uint32_t slot, const Vec3& normal, const Motion<Real>& motion, const Motion<Real>& fixed,
                         double growth);

@@ -197,17 +197,19 @@ double predict_piled_at_facet(const State<Real>& state, Index body, std::uint32_
     const Vec3 v = velocity_of(m);
     const Obstacles& obstacles = *state.bounds.obstacles();
     const std::uint32_t facet = wall - state.bounds.first_facet();
-    const double contact = obstacles.contact_distance(static_cast<double>(m.radius));
-    const double touch = obstacles.time_to(facet, m.x, v, {}, contact, horizon);
+    const double growth = growth_of(state.bodies, body);
+    const double radius = radius_at(state.bodies, body, m.t);
+    const double contact = obstacles.contact_distance(radius);
+    const double touch =
+        obstacles.time_to(facet, m.x, v, {}, contact, obstacles.contact_growth(radius, growth, horizon), horizon);
     if (touch <= horizon && strikes_wall(state, body, wall, touch)) return m.t + touch;
     // One that was stopped already, and goes along a surface that bends towards it, is so again halfway to it.
-    const double distance = obstacles.impact(facet, m.x, {}, static_cast<double>(m.radius)).gap + contact;
+    const double distance = obstacles.impact(facet, m.x, {}, radius).gap + contact;
     for (const double depth : {deepest_in_surface * contact, 0.5 * std::min(distance, deepest_in_surface * contact)}) {
-        const double stop = obstacles.time_to(facet, m.x, v, {}, depth, horizon);
+        const double stop = obstacles.time_to(facet, m.x, v, {}, depth, 0, horizon);
         if (stop == no_impact) return no_impact;
-        const auto radius = static_cast<double>(m.radius);
         const Vec3 n = obstacles.impact(facet, m.x, v * stop, radius).normal;
-        const Vec3 u = obstacles.surface_velocity(facet, m.x, v * stop, radius, n);
+        const Vec3 u = obstacles.surface_velocity(facet, m.x, v * stop, radius, n) - n * growth;
         if (dot(v - u, n) > approach_rounding<Real>(v, u, n)) return m.t + stop;
     }
     return no_impact;
@@ -223,24 +225,26 @@ double predict_facet(const State<Real>& state, Index body, std::uint32_t wall) {
     const std::uint32_t facet = wall - state.bounds.first_facet();
     const Vec3 a = acceleration_of(state, body);
     const Vec3 v = velocity_of(m);
-    const auto radius = static_cast<double>(m.radius);
+    const double growth = growth_of(state.bodies, body);
+    const double radius = radius_at(state.bodies, body, m.t);
     const double contact = obstacles.contact_distance(radius);
-    const double time = obstacles.time_to(facet, m.x, v, a, contact, horizon);
+    const double contact_growth = obstacles.contact_growth(radius, growth, horizon);
+    const double time = obstacles.time_to(facet, m.x, v, a, contact, contact_growth, horizon);
     if (time == no_impact) return no_impact;
     const Touch touch = obstacles.impact(facet, m.x, {}, radius);
     const bool touches = touch.gap <= state.resolution.metres;
-    const Vec3 u = obstacles.surface_velocity(facet, m.x, {}, radius, touch.normal);
+    const Vec3 u = obstacles.surface_velocity(facet, m.x, {}, radius, touch.normal) - touch.normal * growth;
     if (!touches || std::abs(dot(v - u, touch.normal)) > approach_rounding<Real>(v, u, touch.normal)) return m.t + time;
     // An approach that is mere rounding is none. Whatever presses the body comes to lie; what may not do that strikes
     // as soon as it is a little deeper.
     const double e = encounter_of(state, body, state.bounds.surface(wall), 0).resting_restitution;
-    const Support support = support_by_facet(state, wall, touch, m, {}, v);
+    const Support support = support_by_facet(state, wall, touch, m, {}, v, growth);
     if (may_lie_on_obstacle(state, support, radius, v, e)) {
         const double pressing = pressure_on(state, m, state.bodies.slot[body], support, v).acceleration;
         if (std::max(pressing, dot(a, touch.normal)) > 0) return m.t;
     }
     const double deeper = contact + std::min(touch.gap, 0.0) - 2 * state.resolution.metres;
-    return m.t + obstacles.time_to(facet, m.x, v, a, deeper, horizon);
+    return m.t + obstacles.time_to(facet, m.x, v, a, deeper, contact_growth, horizon);
 }
 
 } // namespace

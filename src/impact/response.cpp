@@ -232,12 +232,13 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
         state.bounds.impact(wall, m.x, d, radius_at(state.bodies, event.a, event.time), event.time, state.resolution);
     const bool at_facet = state.bounds.is_facet(wall);
     Support support;
-    if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration);
+    const double growth = growth_of(state.bodies, event.a);
+    if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration, growth);
     take_part(state, event.a, event.time, occurrence.entry);
     if (at_facet) {
         put_back(state, event.a, wall, occurrence.entry);
     } else {
-        support = support_by_wall(state, wall, touch.normal, m, growth_of(state.bodies, event.a));
+        support = support_by_wall(state, wall, touch.normal, m, growth);
     }
     const Encounter encounter =
         encounter_of(state, event.a, state.bounds.surface(wall), approach_to(support, velocity_of(m)));

@@ -256,13 +256,13 @@ struct Obstacles::Facet {
 };
 
 double Obstacles::time_to(std::uint32_t facet, const Int3& x, const Vec3& v, const Vec3& a, double distance,
-                          double horizon) const {
+                          double growth, double horizon) const {
     const Solid& solid = solids_[obstacle_of(facet)];
     const detail::Parabola path{place_in(solid, x, {}), v, a};
     if (const auto* frustum = std::get_if<detail::Frustum>(&solid.shape)) {
-        return detail::time_to_surface(*frustum, path, distance, horizon);
+        return detail::time_to_surface(*frustum, path, distance, growth, horizon);
     }
-    return detail::time_to_surface(Facet{std::get<Surfaces>(solid.shape), facet - solid.first}, path, distance,
+    return detail::time_to_surface(Facet{std::get<Surfaces>(solid.shape), facet - solid.first}, path, distance, growth,
                                    horizon);
 }
 

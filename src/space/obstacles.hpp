@@ -51,9 +51,16 @@ public:
     [[nodiscard]] double contact_distance(double radius) const {
         return std::max(radius, smallest * resolution_.metres);
     }
-    /// s until the centre of a body at x first comes so near to a facet (m); see time_of_impact.hpp.
+    /// m/s, how that distance grows with a body of `radius` in the next `duration` s: one too small is not rounded
+    /// through a surface as it shrinks, either.
+    [[nodiscard]] double contact_growth(double radius, double growth, double duration) const {
+        const double then = radius + growth * duration;
+        if (std::min(radius, then) >= smallest * resolution_.metres) return growth;
+        return (contact_distance(then) - contact_distance(radius)) / duration;
+    }
+    /// s until the centre of a body at x first comes so near to a facet (m), which grows (m/s); see time_of_impact.hpp.
     [[nodiscard]] double time_to(std::uint32_t facet, const Int3& x, const Vec3& v, const Vec3& a, double distance,
-                                 double horizon) const;
+                                 double growth, double horizon) const;
     /// How a body of `radius` at `x + d` (units + m) meets a facet.
     [[nodiscard]] Touch impact(std::uint32_t facet, const Int3& x, const Vec3& d, double radius) const;
     /// How it lies there: as impact(), but three times on a frustum, and only on the facets whose nearest points are

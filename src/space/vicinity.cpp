@@ -685,9 +685,10 @@ double Vicinity<Real>::first_wall_contact(const Motion<Real>& m) const {
         first = std::min(first, time_to_cover(gap, speed, pull));
     }
     if (const Obstacles* obstacles = state_.bounds.obstacles()) {
-        const double reach = reach_of(m, g, epoch_ + windows_ * length_ * (1 + slack)) + margin;
+        const double until = epoch_ + windows_ * length_ * (1 + slack);
+        const double reach = reach_of(m, g, until) + state_.bodies.top_growth * until + margin;
         const double gap = obstacles->distance(m.x, reach) - (radius + margin);
-        first = std::min(first, time_to_cover(gap, length(v), length(g)));
+        first = std::min(first, time_to_cover(gap, length(v) + state_.bodies.top_growth, length(g)));
     }
     return first;
 }

@@ -131,12 +131,7 @@ void Engine<Real>::check_values(const ConstBodyColumns& columns, std::size_t cou
     for (std::size_t k = 0; k < columns.velocity.size(); ++k) check_velocity<Real>(columns.velocity[k], k);
     for (std::size_t k = 0; k < columns.mass.size(); ++k) check_mass<Real>(columns.mass[k], k);
     for (std::size_t k = 0; k < columns.radius.size(); ++k) check_radius(columns.radius[k], k);
-    for (std::size_t k = 0; k < columns.growth.size(); ++k) {
-        check_finite(columns.growth[k], "growth", k);
-        if (columns.growth[k] != 0 && state_.bounds.obstacles() != nullptr) {
-            throw Error(ErrorCode::out_of_range, "growth", "must be 0 in a world with obstacles", k);
-        }
-    }
+    for (std::size_t k = 0; k < columns.growth.size(); ++k) check_finite(columns.growth[k], "growth", k);
     for (std::size_t k = 0; k < columns.restitution.size(); ++k) {
         check_fraction(columns.restitution[k], "restitution", k);
     }

@@ -401,7 +401,6 @@ bool Engine<Real>::bodies_are_sound() const {
         check_finite(velocity_of(m), "velocity", i);
         check_radius(static_cast<double>(m.radius), i);
         check_finite(growth_of(b, i), "growth", i);
-        if (growth_of(b, i) != 0 && state_.bounds.obstacles() != nullptr) return false;
         if (static_cast<Real>(radius_at(b, i, 0)) != m.radius) return false;
         check_fraction(static_cast<double>(b.restitution[i]), "restitution", i);
         check_not_negative(static_cast<double>(b.friction[i]), "friction", i);

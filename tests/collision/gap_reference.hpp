@@ -38,10 +38,13 @@ struct Gap {
     Real contact;
     std::function<Real(const Wide&)> of;
     std::function<Wide(const Wide&)> gradient;
+    Real growth = 0; ///< m/s, of the contact distance
 
-    [[nodiscard]] Real at(Real t) const { return of(motion.at(t)); }
-    [[nodiscard]] Real rate(Real t) const { return dot(gradient(motion.at(t)), motion.velocity_at(t)); }
-    [[nodiscard]] Real unit(Real t) const { return eps<double> * (motion.path_length(t) + contact); }
+    [[nodiscard]] Real at(Real t) const { return of(motion.at(t)) - growth * t; }
+    [[nodiscard]] Real rate(Real t) const { return dot(gradient(motion.at(t)), motion.velocity_at(t)) - growth; }
+    [[nodiscard]] Real unit(Real t) const {
+        return eps<double> * (motion.path_length(t) + contact + std::abs(growth) * t);
+    }
 };
 
 /// The most extreme value of the gap between two samples on either side of an extreme one: ternary search.
@@ -127,7 +130,7 @@ private:
             return {"the gap is not closed", static_cast<double>(error / unit)};
         }
         // Within rounding of a turning point the rate is below this; anything above is a gap that opens.
-        const Real speed = length(gap_.motion.velocity_at(time));
+        const Real speed = length(gap_.motion.velocity_at(time)) + std::abs(gap_.growth);
         const Real bending = speed * speed / std::max(gap_.contact, unit) + length(gap_.motion.a);
         if (gap_.rate(time) > 2 * std::sqrt(noise * bending)) {
             return {"the gap opens"};

@@ -125,6 +125,10 @@ struct Flake {
     [[nodiscard]] SurfaceImpact<double> impact(const Trial& trial, double radius) const {
         return time_to_triangle(trial.p, trial.v, trial.a, radius, a, b, c, trial.horizon);
     }
+    [[nodiscard]] double time_growing(const Trial& trial, double radius, double growth) const {
+        return detail::time_to_surface(detail::Triangle(a, b, c), {trial.p, trial.v, trial.a}, radius, growth,
+                                       trial.horizon);
+    }
 };
 
 /// A path that touches a surface near one of its points, or one that begins in touch.
@@ -154,7 +158,25 @@ Real judged() {
     return verdict.error;
 }
 
+/// Of a radius that grows or shrinks by a part of itself, or by twice itself.
+template <class Shape>
+Real judged_growing() {
+    const Shape shape = Shape::random();
+    const double radius = decades(-1, 1);
+    const Trial trial = path_to(shape.point(), radius);
+    const double growth = between(-0.9, 2) * radius / trial.horizon;
+    const double time = shape.time_growing(trial, radius, growth);
+    Gap gap = shape.gap(trial, radius);
+    gap.growth = growth;
+    const Verdict verdict = Judge(gap).check(time, trial.horizon);
+    RC_LOG() << describe(trial, time, verdict) << ", radius " << radius << ", growth " << growth;
+    RC_ASSERT(verdict.fault.empty());
+    return verdict.error;
+}
+
 TEST(TriangleTime, ClosesTheGap) { measure(unit_of_gap, judged<Flake>); }
+
+TEST(TriangleTime, ClosesTheGapOfWhatGrows) { measure(unit_of_gap, judged_growing<Flake>); }
 
 RC_GTEST_PROP(TriangleTime, MirroredInputGivesTheSameBits, ()) {
     const Flake flake = Flake::random();
@@ -224,9 +246,15 @@ struct Funnel {
         return time_to_frustum(trial.p, trial.v, trial.a, radius, base, axis, height, base_radius, top_radius,
                                trial.horizon);
     }
+    [[nodiscard]] double time_growing(const Trial& trial, double radius, double growth) const {
+        return detail::time_to_surface(detail::Frustum(base, detail::direction(axis), height, base_radius, top_radius),
+                                       {trial.p, trial.v, trial.a}, radius, growth, trial.horizon);
+    }
 };
 
 TEST(FrustumTime, ClosesTheGap) { measure(unit_of_gap, judged<Funnel>); }
+
+TEST(FrustumTime, ClosesTheGapOfWhatGrows) { measure(unit_of_gap, judged_growing<Funnel>); }
 
 RC_GTEST_PROP(FrustumTime, MirroredInputGivesTheSameBits, ()) {
     const Funnel f = Funnel::random();

@@ -89,6 +89,27 @@ void drive(carom::Region& region, Random& random) {
     }
 }
 
+bool is_periodic(const carom::Region& region) {
+    const auto* box = std::get_if<Box>(&region);
+    return box != nullptr && box->faces[0].kind == carom::FaceKind::periodic;
+}
+
+/// A roof of two triangles, and a frustum, which turns if it is driven.
+std::vector<carom::Obstacle> random_obstacles(Random& random, bool is_driven) {
+    const Vec3 ridge = random.vector(3);
+    carom::Mesh roof{.vertices = {ridge, ridge + Vec3{6, 1, 0} + random.vector(1), ridge + Vec3{2, 5, -2},
+                                  ridge + Vec3{3, -4, -3} + random.vector(1)},
+                     .triangles = {{0, 1, 2}, {1, 0, 3}}};
+    if (random.chance(2)) roof.surface = {.restitution = 0.5, .friction = 0.2};
+    const carom::Frustum frustum{.base = random.vector(4),
+                                 .axis = Vec3{0, 0, 1.5} + random.vector(1),
+                                 .height = random.within(0, 4),
+                                 .base_radius = random.within(0.5, 4),
+                                 .top_radius = random.within(0, 3),
+                                 .angular_velocity = is_driven ? random.within(-2, 2) : 0};
+    return {roof, frustum};
+}
+
 /// `is_driven`: with what moves as prescribed.
 World random_world(unsigned seed, bool is_driven = false) {
     Random random(seed);
@@ -97,6 +118,7 @@ World random_world(unsigned seed, bool is_driven = false) {
     if (is_driven) drive(options.region, random);
     options.precision = random.chance(2) ? carom::Precision::single_precision : carom::Precision::double_precision;
     if (random.chance(2)) options.gravity = random.vector(10);
+    if (!is_periodic(options.region) && random.chance(3)) options.obstacles = random_obstacles(random, is_driven);
     if (random.chance(4)) options.drag = {.linear = 0.1, .quadratic = 0.05};
     if (random.chance(3)) options.collapse_time = 0.05;
     // The material of every third body.
