@@ -1,5 +1,6 @@
 // Bodies whose radii grow: exact times of impact, what growth does to them, and compression to dense packings.
 
+#include "physics/balance.hpp"
 #include "physics/lattice.hpp"
 #include "scene/overlap_search.hpp"
 
@@ -18,14 +19,10 @@ using carom::BodyId;
 using carom::infinite_mass;
 using carom::Vec3;
 using carom::World;
+using carom::test::balance;
 using carom::test::lattice;
 
 constexpr double g = 9.81;
-
-double balance(const World& world) {
-    const carom::Ledger& ledger = world.ledger();
-    return world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction - ledger.prescribed_work;
-}
 
 /// Two bodies, one of which grows: |4 - 0.5 t| = 1 + 0.25 t, and then the surfaces part at e times their approach.
 TEST(Growth, APairMeetsAtTheExactTimeAndParts) {

@@ -1,6 +1,7 @@
 // What moves as prescribed, faces and kinematic bodies, takes any momentum, at exact times of impact, and the books
 // tell the work that it does.
 
+#include "physics/balance.hpp"
 #include "physics/lattice.hpp"
 
 #include <carom/carom.hpp>
@@ -19,6 +20,7 @@ using carom::BodyId;
 using carom::infinite_mass;
 using carom::Vec3;
 using carom::World;
+using carom::test::balance;
 using carom::test::lattice;
 
 constexpr double g = 9.81;
@@ -26,13 +28,6 @@ constexpr double g = 9.81;
 void run(World& world, double seconds, double dt = 1.0 / 60) {
     const double end = world.time() + seconds;
     while (world.time() < end - dt / 2) world.step(dt);
-}
-
-/// J: what the bodies have, and what the books say that they lost, less what was done on them. Does not change.
-double balance(const World& world) {
-    const carom::Ledger& ledger = world.ledger();
-    return world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction + ledger.lost_to_drag -
-           ledger.prescribed_work;
 }
 
 TEST(KinematicBody, GivesTheVelocityOfTheFormulaForInfiniteMass) {
