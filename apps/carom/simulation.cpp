@@ -25,7 +25,7 @@ double intervals_in(std::uint64_t steps, double dt, double every) {
 }
 
 scene::RunIdentity identity_of(const World& world, const scene::Scene& scene) {
-    scene::RunIdentity identity = scene::identity_of(world, scene.name);
+    scene::RunIdentity identity = scene::identity_of(world, scene.name, scene.observations);
     identity.dt = scene.run.dt;
     identity.timeline_every = scene.outputs.timeline_every;
     identity.check_overlap = scene.outputs.check_overlap;
@@ -61,16 +61,12 @@ Simulation::Simulation(const scene::Scene& scene)
 }
 
 void Simulation::resume(const std::filesystem::path& file) {
-    if (!observations_.empty()) {
-        throw UsageError(fmt::format("--resume {}: the scene has observers, and what they have seen is in no "
-                                     "checkpoint: run it from its start",
-                                     file.string()));
-    }
     try {
         scene::Checkpoint saved = scene::load_checkpoint(scene::read_file(file));
         if (const auto reason = scene::difference(saved.identity, identity_)) {
             throw UsageError(fmt::format("--resume {}: this checkpoint is of another run: {}", file.string(), *reason));
         }
+        restore_observations(observations_, saved.observations, saved.world);
         world_ = std::move(saved.world);
         progress_ = std::move(saved.progress);
     } catch (const Error& error) {
@@ -111,7 +107,9 @@ double Simulation::behind() const {
     return static_cast<double>(progress_.steps - 1) * schedule_.dt + last - world_.time();
 }
 
-std::vector<std::byte> Simulation::checkpoint() const { return scene::save_checkpoint(identity_, progress_, world_); }
+std::vector<std::byte> Simulation::checkpoint() const {
+    return scene::save_checkpoint(identity_, progress_, observations_, world_);
+}
 
 std::vector<scene::TimelineRow> Simulation::timeline() const {
     std::vector<scene::TimelineRow> rows = progress_.rows;

@@ -9,6 +9,11 @@
 /// world and the same calls give the same bits. SI units; temperatures are kT, in joules. Static bodies are left out
 /// unless it says otherwise. Formulas: Allen & Tildesley, Computer Simulation of Liquids (2nd edition 2017), chapters 2
 /// and 8.
+///
+/// Each has a function `transfer(archive, self)` for whoever saves and restores it: it calls `archive.settings(...)`
+/// with what it was made with, `archive(...)` with what it has gathered, and `archive.elements(list)` with lists whose
+/// length the settings give. That are numbers, Vec3, arrays, optionals and lists of them, and classes with such a
+/// function.
 #pragma once
 
 #include <carom/base.hpp>
@@ -40,11 +45,20 @@ public:
     void add(double value, double weight = 1);
     [[nodiscard]] Estimate estimate() const;
     [[nodiscard]] std::uint64_t samples() const noexcept { return samples_; }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive(self.blocks_, self.block_size_, self.in_last_, self.samples_);
+    }
 
 private:
     struct Block {
         double weight = 0;
         double sum = 0; ///< of weight times value
+
+        template <class Archive, class Self>
+        static void transfer(Archive& archive, Self& self) {
+            archive(self.weight, self.sum);
+        }
     };
     void merge_pairs();
 
@@ -76,6 +90,10 @@ public:
     [[nodiscard]] Estimate total() const { return total_.estimate(); }
     /// `axis` 0 to 2.
     [[nodiscard]] Estimate momentum(std::size_t axis) const { return momentum_.at(axis).estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive(self.kinetic_, self.potential_, self.total_, self.momentum_);
+    }
 
 private:
     BlockAverage kinetic_;
@@ -114,6 +132,14 @@ public:
     [[nodiscard]] double duration() const noexcept { return duration_; }
     /// Impacts between bodies that were observed.
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.elements(self.radius_);
+        archive(self.volume_, self.bodies_, self.duration_, self.count_, self.kinetic_, self.rate_, self.pressure_,
+                self.virial_);
+        archive.elements(self.face_force_);
+        archive.elements(self.impulse_);
+    }
 
 private:
     std::vector<double> radius_; ///< m, by slot
@@ -149,6 +175,12 @@ public:
     /// Second Sonine coefficient (3/5) <v^4> / <v^2>^2 - 1, the mean over samples; 0 for Maxwell's distribution of
     /// equal masses (of N bodies with a given energy -2 / (3 N), to first order).
     [[nodiscard]] Estimate a2() const { return a2_.estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.width_);
+        archive(self.moments_, self.temperature_, self.a2_);
+        archive.elements(self.histogram_);
+    }
 
 private:
     double width_;
@@ -179,6 +211,13 @@ public:
     [[nodiscard]] Estimate temperature(std::size_t slice) const;
     /// m/s along `component` (0 to 2), weighted by mass.
     [[nodiscard]] Estimate velocity(std::size_t slice, std::size_t component) const;
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.axis_, self.low_, self.width_, self.area_);
+        for (auto* list :
+             {&self.density_, &self.energy_, &self.mass_, &self.velocity_[0], &self.velocity_[1], &self.velocity_[2]})
+            archive.elements(*list);
+    }
 
 private:
     struct Sums {
@@ -214,6 +253,11 @@ public:
     /// m, the middle of a shell.
     [[nodiscard]] double distance(std::size_t shell) const;
     [[nodiscard]] Estimate g(std::size_t shell) const { return g_.at(shell).estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.most_);
+        archive.elements(self.g_);
+    }
 
 private:
     double most_;
@@ -237,6 +281,11 @@ public:
     [[nodiscard]] Estimate mean_without_rattlers() const { return without_rattlers_.estimate(); }
     /// Share of the bodies with so many contacts (the last: or more).
     [[nodiscard]] Estimate share(std::size_t contacts) const { return shares_.at(contacts).estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.gap_);
+        archive(self.mean_, self.without_rattlers_, self.shares_);
+    }
 
 private:
     double gap_;
@@ -255,6 +304,11 @@ public:
 
     void observe(const Sample& sample);
     [[nodiscard]] Estimate fraction() const { return fraction_.estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.axis_, self.low_, self.high_, self.area_);
+        archive(self.fraction_);
+    }
 
 private:
     std::size_t axis_;
@@ -282,6 +336,12 @@ public:
     [[nodiscard]] Estimate squared_displacement(std::size_t lag) const { return displacement_.at(lag).estimate(); }
     /// m^2/s^2
     [[nodiscard]] Estimate velocity_correlation(std::size_t lag) const { return velocity_.at(lag).estimate(); }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive.settings(self.origin_every_, self.most_origins_);
+        archive(self.seen_, self.last_, self.unwrapped_, self.origins_);
+        for (auto* list : {&self.time_, &self.displacement_, &self.velocity_}) archive.elements(*list);
+    }
 
 private:
     struct Origin {
@@ -289,6 +349,11 @@ private:
         double time = 0;
         std::vector<Vec3> position; ///< m, unwrapped
         std::vector<Vec3> velocity;
+
+        template <class Archive, class Self>
+        static void transfer(Archive& archive, Self& self) {
+            archive(self.sample, self.time, self.position, self.velocity);
+        }
     };
 
     void follow(const Sample& sample);
@@ -300,7 +365,6 @@ private:
     std::vector<Vec3> last_;      ///< m, positions of the last sample
     std::vector<Vec3> unwrapped_; ///< m
     std::vector<Origin> origins_; ///< a ring
-    std::size_t next_origin_ = 0;
     std::vector<BlockAverage> time_;
     std::vector<BlockAverage> displacement_;
     std::vector<BlockAverage> velocity_;

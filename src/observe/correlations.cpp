@@ -2,6 +2,7 @@
 
 #include <carom/observers.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom {
@@ -32,16 +33,21 @@ Correlations::Correlations(std::size_t most_lag, std::size_t origin_every)
 }
 
 void Correlations::observe(const Sample& sample) {
-    if (seen_ > 0 && sample.position.size() != last_.size()) {
+    const std::size_t bodies = sample.position.size();
+    const auto is_of_others = [bodies](const Origin& origin) {
+        return origin.position.size() != bodies || origin.velocity.size() != bodies;
+    };
+    if (seen_ > 0 &&
+        (last_.size() != bodies || unwrapped_.size() != bodies || std::ranges::any_of(origins_, is_of_others))) {
         throw Error(ErrorCode::size_mismatch, "sample",
                     "must have as many bodies as before, " + std::to_string(last_.size()) + ", got " +
                         std::to_string(sample.position.size()));
     }
     follow(sample);
     if (seen_ % origin_every_ == 0) {
-        if (origins_.size() < most_origins_) origins_.emplace_back();
-        origins_[next_origin_] = {seen_, sample.time, unwrapped_, sample.velocity};
-        next_origin_ = (next_origin_ + 1) % most_origins_;
+        const std::size_t place = seen_ / origin_every_ % most_origins_;
+        if (place == origins_.size()) origins_.emplace_back();
+        origins_.at(place) = {seen_, sample.time, unwrapped_, sample.velocity};
     }
     for (const Origin& origin : origins_) {
         if (seen_ - origin.sample < time_.size()) compare(origin, sample);

@@ -18,6 +18,10 @@ struct Books {
     double momentum_scale = 0; ///< kg m/s, sum of m |v|
 
     [[nodiscard]] double total() const { return kinetic + potential; }
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive(self.kinetic, self.potential, self.lost, self.momentum, self.outer_impulse, self.momentum_scale);
+    }
 };
 
 /// J booked as lost, of all kinds.

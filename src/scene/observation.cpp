@@ -1,5 +1,7 @@
 #include "scene/observation.hpp"
 
+#include "scene/archive.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -134,6 +136,12 @@ private:
     std::optional<Sample> sample_;
 };
 
+/// Whether an observer has what is only made once it looks.
+bool is_begun(const Observer& observer) {
+    const auto* const impacts = std::get_if<ImpactObserver>(&observer);
+    return impacts != nullptr && impacts->impacts.has_value();
+}
+
 } // namespace
 
 void observe(std::span<Observation> observations, const World& world, std::uint64_t step) {
@@ -143,6 +151,30 @@ void observe(std::span<Observation> observations, const World& world, std::uint6
         const bool is_due = step % observation.every == 0;
         observation.samples += is_due ? 1 : 0;
         std::visit([&](auto& observer) { look.take(observer, is_due); }, observation.observer);
+    }
+}
+
+std::vector<std::byte> save_observations(std::span<const Observation> observations) {
+    Writer writer;
+    for (const Observation& observation : observations) {
+        writer.settings(observation.name, observation.from, observation.every,
+                        std::uint64_t{observation.observer.index()});
+        writer(observation.samples, is_begun(observation.observer));
+        std::visit([&](const auto& observer) { writer(observer); }, observation.observer);
+    }
+    return writer.take();
+}
+
+void restore_observations(std::span<Observation> observations, std::span<const std::byte> bytes, const World& world) {
+    Reader reader(bytes);
+    for (Observation& observation : observations) {
+        bool begun = false;
+        reader.settings(observation.name, observation.from, observation.every,
+                        std::uint64_t{observation.observer.index()});
+        reader(observation.samples, begun);
+        auto* const impacts = std::get_if<ImpactObserver>(&observation.observer);
+        if (begun && impacts != nullptr) impacts->impacts.emplace(world);
+        std::visit([&](auto& observer) { reader(observer); }, observation.observer);
     }
 }
 

@@ -5,12 +5,14 @@
 #include <carom/observers.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace carom::scene {
 
@@ -18,6 +20,12 @@ namespace carom::scene {
 struct ImpactObserver {
     std::optional<ImpactStatistics> impacts{}; ///< not set before the first step that is observed
     Speeds speeds{1, 1};
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive(self.speeds);
+        if (self.impacts) archive(*self.impacts);
+    }
 };
 
 using Observer = std::variant<Energies, ImpactObserver, Speeds, Profile, RadialDistribution, Coordination, SlabPacking,
@@ -37,6 +45,13 @@ struct Observation {
 
 /// Lets all observers see a world that has done `step` steps.
 void observe(std::span<Observation> observations, const World& world, std::uint64_t step);
+
+/// All that they are and have seen, as bytes.
+std::vector<std::byte> save_observations(std::span<const Observation> observations);
+
+/// Lets observers, made by the same scene, go on from what was saved; `world` is where they saw it. Error{bad_data} if
+/// the bytes are no such ones.
+void restore_observations(std::span<Observation> observations, std::span<const std::byte> bytes, const World& world);
 
 /// What they have seen as CSV: a line for each quantity, or for each of its values along an axis, with the standard
 /// error; empty where nothing says how large that is. None of observers without a sample. Numbers read back exactly.

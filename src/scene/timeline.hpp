@@ -26,6 +26,11 @@ struct TimelineRow {
     std::uint64_t contacts = 0;     ///< resting ones, of bodies with each other, faces and static bodies
 
     friend bool operator==(const TimelineRow&, const TimelineRow&) = default;
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+        archive(self.time, self.step, self.kinetic, self.potential, self.total, self.lost, self.momentum, self.impacts,
+                self.face_impacts, self.contacts);
+    }
 };
 
 /// The row of `world` as it is now, `step` steps after its start.

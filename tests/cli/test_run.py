@@ -95,8 +95,13 @@ every = 0.1
         self.assertEqual(len([row for row in rows if row["quantity"] == "speed_density"]), 10)
         self.assertIn("pressure", {row["quantity"] for row in rows})
 
+        self.carom("run", "observed.toml", "--out", "parts", "--time", 1.5)
+        self.carom("run", "observed.toml", "--out", "parts", "--time", 4, "--resume", "parts/checkpoint.carom")
+        for name in ("observations.csv", "checkpoint.carom"):
+            self.assertEqual(self.read("parts", name), self.read("out", name), name)
+        self.write("observed.toml", (self.folder / "observed.toml").read_text().replace("bins = 10", "bins = 11"))
         message = self.refused("run", "observed.toml", "--out", "out", "--time", 8, "--resume", "out/checkpoint.carom")
-        self.assertIn("the scene has observers, and what they have seen is in no checkpoint", message)
+        self.assertIn("this checkpoint is of another run: its run wrote other outputs", message)
         self.carom("run", "gas.toml", "--out", "out")
         self.assertNotIn("observations.csv", self.files("out"))
 

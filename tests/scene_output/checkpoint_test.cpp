@@ -22,8 +22,10 @@ World small_world() {
     return world;
 }
 
+std::vector<scene::Observation> observations() { return {{.name = "energies", .observer = Energies()}}; }
+
 RunIdentity identity(const World& world) {
-    RunIdentity identity = scene::identity_of(world, "small");
+    RunIdentity identity = scene::identity_of(world, "small", observations());
     identity.dt = 0.01;
     identity.record_impacts = true;
     return identity;
@@ -42,7 +44,7 @@ RunProgress progress(const World& world) {
 
 std::vector<std::byte> bytes_of_small_run() {
     const World world = small_world();
-    return scene::save_checkpoint(identity(world), progress(world), world);
+    return scene::save_checkpoint(identity(world), progress(world), observations(), world);
 }
 
 std::string message_of(std::span<const std::byte> bytes) {
@@ -60,7 +62,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
     const RunIdentity wanted = identity(world);
     for (int i = 0; i < 200; ++i) world.step(0.01);
     const RunProgress before = progress(world);
-    scene::Checkpoint loaded = scene::load_checkpoint(scene::save_checkpoint(wanted, before, world));
+    scene::Checkpoint loaded = scene::load_checkpoint(scene::save_checkpoint(wanted, before, observations(), world));
     EXPECT_EQ(loaded.identity, wanted);
     EXPECT_EQ(loaded.progress.steps, 3U);
     EXPECT_EQ(loaded.progress.last_step_short, before.last_step_short);
@@ -80,8 +82,8 @@ TEST(Checkpoint, ComesBackAsItWas) {
 TEST(Checkpoint, IsTheSameBytesAgain) {
     const World world = small_world();
     const World copy(world); // NOLINT(performance-unnecessary-copy-initialization): the copy is what is tested
-    EXPECT_TRUE(scene::save_checkpoint(identity(world), progress(world), world) ==
-                scene::save_checkpoint(identity(copy), progress(copy), copy));
+    EXPECT_TRUE(scene::save_checkpoint(identity(world), progress(world), observations(), world) ==
+                scene::save_checkpoint(identity(copy), progress(copy), observations(), copy));
 }
 
 TEST(Checkpoint, TruncatedIsRefusedAtEveryLength) {
@@ -109,8 +111,8 @@ TEST(Checkpoint, ForeignFilesAndVersionsAreNamed) {
     const std::string text = "# a scene, not a checkpoint, and longer than the head of one is\n";
     EXPECT_NE(message_of(std::as_bytes(std::span(text))).find("no checkpoint"), std::string::npos);
     std::vector<std::byte> newer = bytes_of_small_run();
-    newer[8] = std::byte{2};
-    EXPECT_NE(message_of(newer).find("version 2"), std::string::npos);
+    newer[8] = std::byte{3};
+    EXPECT_NE(message_of(newer).find("version 3"), std::string::npos);
 }
 
 TEST(RunIdentity, NamesWhatDiffers) {
@@ -128,6 +130,7 @@ TEST(RunIdentity, NamesWhatDiffers) {
     EXPECT_EQ(reason([](RunIdentity& i) { i.precision = Precision::single_precision; }),
               "its precision is double, not single");
     EXPECT_EQ(reason([](RunIdentity& i) { i.record_impacts = false; }), "its run wrote other outputs");
+    EXPECT_EQ(reason([](RunIdentity& i) { i.observers ^= 1U; }), "its run wrote other outputs");
     EXPECT_EQ(reason([](RunIdentity& i) { i.world ^= 1U; }), "the scene has changed since");
 }
 

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <map>
+#include <span>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -128,6 +130,55 @@ TEST_F(Observations, AreThoseOfTheLibrary) {
     expect("correlations", "squared_displacement", "0", correlations.squared_displacement(0));
     EXPECT_GT(impacts.count(), 100U);
     EXPECT_EQ(lines_.count({"correlations", "velocity_correlation", "0"}), 1U);
+}
+
+/// Saved while impacts are not looked at yet (`from` is 1 s), and when all have seen something.
+TEST_F(Observations, GoOnFromWhatWasSaved) {
+    const Scene scene = parse_scene(gas(125, 8, "every = 0.1\nfrom = 1\n"), "s.toml");
+    std::vector<Observation> whole = scene.observations;
+    std::vector<Observation> parts = scene.observations;
+    World world = make_world(scene);
+    for (std::uint64_t step = 1; step <= 200; ++step) {
+        world.step(scene.run.dt);
+        observe(whole, world, step);
+        observe(parts, world, step);
+        if (step != 20 && step != 128) continue;
+        const std::vector<std::byte> saved = save_observations(parts);
+        parts = scene.observations;
+        restore_observations(parts, saved, world);
+        EXPECT_EQ(save_observations(parts), saved);
+    }
+    EXPECT_EQ(save_observations(parts), save_observations(whole));
+    EXPECT_EQ(to_csv(parts), to_csv(whole));
+}
+
+TEST_F(Observations, AreRestoredOnlyToTheirLikes) {
+    const Scene scene = parse_scene(gas(125, 8, "every = 0.1\n"), "s.toml");
+    World world = make_world(scene);
+    std::vector<Observation> observations = scene.observations;
+    for (std::uint64_t step = 1; step <= 10; ++step) {
+        world.step(scene.run.dt);
+        observe(observations, world, step);
+    }
+    const std::vector<std::byte> saved = save_observations(observations);
+    const auto is_refused = [&](std::vector<Observation> others, std::span<const std::byte> bytes) {
+        try {
+            restore_observations(others, bytes, world);
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::bad_data;
+        }
+        return false;
+    };
+    EXPECT_FALSE(is_refused(scene.observations, saved));
+    for (const std::string& other : {gas(125, 8.5, "every = 0.1\n"), gas(125, 8, "every = 0.2\n")}) {
+        EXPECT_TRUE(is_refused(parse_scene(other, "s.toml").observations, saved));
+    }
+    std::vector<Observation> turned = scene.observations;
+    std::swap(turned.front(), turned.back());
+    EXPECT_TRUE(is_refused(turned, saved));
+    for (std::size_t size = 0; size < saved.size(); size += 101) {
+        EXPECT_TRUE(is_refused(scene.observations, std::span(saved).first(size))) << size;
+    }
 }
 
 TEST_F(Observations, WhatWasNotSeenIsNotSaid) {
