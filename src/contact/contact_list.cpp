@@ -30,11 +30,11 @@ template <class Real>
 void ContactList<Real>::find(Executor& executor, double margin, double time) {
     number_leaners();
     look_around(executor, margin, time);
-    arrange(margin);
+    arrange();
 }
 
 template <class Real>
-void ContactList<Real>::recall(double margin) {
+void ContactList<Real>::recall() {
     number_leaners();
     clear_for_reuse(found_);
     const auto leaner = [this](std::uint32_t slot) { return places_[state_.bodies.slots[slot]]; };
@@ -42,7 +42,7 @@ void ContactList<Real>::recall(double margin) {
         const bool is_wall = (force.code & Support::wall_bit) != 0;
         found_.push_back({leaner(force.a), is_wall ? nobody : leaner(force.code), force.a, force.code});
     }
-    arrange(margin);
+    arrange();
 }
 
 template <class Real>
@@ -132,25 +132,30 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
-void ContactList<Real>::arrange(double margin) {
-    assign_cells(margin);
+void ContactList<Real>::arrange() {
+    assign_cells();
     sort();
     make_groups();
 }
 
-/// Puts every leaner into a cell with edges that no contact is longer than.
 template <class Real>
-void ContactList<Real>::assign_cells(double margin) {
+std::uint64_t ContactList<Real>::wanted_edge() const {
     const Bodies<Real>& bodies = state_.bodies;
-    CensusTaker taker;
     double largest = 0;
     for (const ListedBody& l : bodies.listed) {
-        const auto radius = bodies.motion[bodies.slots[l.slot]].radius;
-        taker.count(Motion<Real>{.x = l.x, .radius = radius}, Kind::piled);
-        largest = std::max(largest, static_cast<double>(radius));
+        largest = std::max(largest, static_cast<double>(bodies.motion[bodies.slots[l.slot]].radius));
     }
+    return static_cast<std::uint64_t>((2 * largest + bodies.list_margin) * state_.resolution.per_metre) + 1;
+}
+
+/// Puts every leaner into a cell.
+template <class Real>
+void ContactList<Real>::assign_cells() {
+    const Bodies<Real>& bodies = state_.bodies;
+    CensusTaker taker;
+    for (const ListedBody& l : bodies.listed) taker.count(Motion<Real>{.x = l.x}, Kind::piled);
     const Census census = taker.census();
-    const auto edge = static_cast<std::uint64_t>((2 * largest + margin) * state_.resolution.per_metre) + 1;
+    const std::uint64_t edge = bodies.list_edge;
     const Vec3& g = state_.laws.gravity;
     const auto pull = [&g](int axis) { return std::abs(component(g, axis)); };
     const int up = pull(0) > std::max(pull(1), pull(2)) ? 0 : (pull(1) > pull(2) ? 1 : 2);

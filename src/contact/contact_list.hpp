@@ -44,7 +44,9 @@ public:
     /// bodies that are asleep among it.
     void find(Executor& executor, double margin, double time);
     /// Lists what Bodies::contacts names.
-    void recall(double margin);
+    void recall();
+    /// Bodies::list_edge for those that lean now: no contact is longer.
+    [[nodiscard]] std::uint64_t wanted_edge() const;
 
     [[nodiscard]] std::span<const ContactName> names() const { return names_; }
     [[nodiscard]] ContactGroup<Real>& group_of(const ContactName& name) { return groups_[name.group()]; }
@@ -128,8 +130,8 @@ private:
     void add_pair(std::vector<Found>& found, Index a, Index b, double margin, double time) const;
     void add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const;
     [[nodiscard]] Vec3 apart(std::uint32_t a, Index other) const;
-    void arrange(double margin);
-    void assign_cells(double margin);
+    void arrange();
+    void assign_cells();
     [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
     [[nodiscard]] Order order_of(std::uint32_t number) const;
     void sort();

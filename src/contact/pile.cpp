@@ -388,12 +388,16 @@ double Pile<Real>::approach_of(const ContactName& name) const {
     const Vec3 apart = detail::wide(vector_in(group.apart, lane));
     const bool is_given = name.is_wall() || name.is_driven;
     const Vec3 delta = is_given ? apart : apart + (detail::wide(places_[b].x) - detail::wide(places_[a].x));
-    return dot(detail::wide(movers_[a].v) - detail::wide(movers_[b].v), contact_normal(delta, Vec3{}));
+    const double approach = dot(detail::wide(movers_[a].v) - detail::wide(movers_[b].v), contact_normal(delta, Vec3{}));
+    if (is_given) return approach; // their own motion holds the growth
+    const Bodies<Real>& bodies = state_.bodies;
+    return approach + growth_of(bodies, bodies.slots[name.slot]) + growth_of(bodies, bodies.slots[name.code]);
 }
 
 /// Whether the two go so fast relative to each other that they could strike, whatever their normal.
 template <class Real>
 bool Pile<Real>::is_closing(const ContactName& name) const {
+    if (state_.bodies.top_growth != 0) return true;
     const ContactGroup<Real>& group = list_.group_of(name);
     const Vec3 v_a = detail::wide(movers_[group.a[name.lane()]].v);
     const Vec3 v_b = detail::wide(movers_[group.b[name.lane()]].v);
@@ -423,7 +427,8 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     if (name.is_driven && !only_turns) return !std::isinf(gap);
     if (!is_closing(name)) return false;
     // The normal turns on the way.
-    const double closing = length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v));
+    const double closing =
+        length(detail::wide(movers_[a].v) - detail::wide(movers_[b].v)) + 2 * state_.bodies.top_growth;
     const double way = 1.001 * closing * piece_ + 2 * state_.resolution.metres;
     return way >= gap && closing > strike_of(name);
 }
@@ -508,10 +513,11 @@ bool Pile<Real>::is_far(std::size_t leaner) const {
     return length_squared(detail::wide(places_[leaner].x)) > far_ * far_;
 }
 
-/// Whether a mover's speed could make a strike.
+/// Whether a mover's speed, or what grows, could make a strike.
 template <class Real>
 bool Pile<Real>::mark(std::size_t leaner) {
-    const bool is_fast = 4 * length_squared(detail::wide(movers_[leaner].v)) > least_strike_ * least_strike_;
+    const bool is_fast = state_.bodies.top_growth != 0 ||
+                         4 * length_squared(detail::wide(movers_[leaner].v)) > least_strike_ * least_strike_;
     marks_[leaner] = is_fast ? fast : 0;
     return is_fast;
 }

@@ -16,12 +16,17 @@ void Pile<Real>::start_list(double from) {
         settle_accounts();
         has_values_ = false;
         gather();
-        if (bodies.listed.empty()) return list_.clear();
+        if (bodies.listed.empty()) {
+            bodies.contacts.clear();
+            is_listed_ = false;
+            return list_.clear();
+        }
         for_each_leaner([&](Findings&, std::size_t k) {
             advance_leaner(k, from);
             bodies.listed[k].x = bodies.motion[bodies_[k]].x;
         });
         bodies.list_margin = wanted_margin();
+        bodies.list_edge = list_.wanted_edge();
         far_ = 0.5 * bodies.list_margin;
         list_.find(*executor_, bodies.list_margin, from);
     } while (wake_neighbours());
@@ -72,6 +77,7 @@ void Pile<Real>::gather() {
     }
     accounts_.assign(bodies_.size(), {});
     marks_.assign(bodies_.size(), 0);
+    all_marks_ = 0;
     bodies.newly_piled = false;
 }
 
@@ -81,16 +87,17 @@ void Pile<Real>::resume_list() {
     Bodies<Real>& bodies = state_.bodies;
     if (!is_listed_) {
         clear_for_reuse(closed_);
-        list_.recall(bodies.list_margin);
+        list_.recall();
     }
     is_listed_ = true;
     bodies_.resize(bodies.listed.size());
     marks_.assign(list_.movers(), 0);
+    all_marks_ = 0;
     places_.assign(list_.movers(), {});
     accounts_.assign(bodies_.size(), {});
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
         bodies_[k] = bodies.slots[bodies.listed[k].slot];
-        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = gone;
+        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = all_marks_ = gone;
     }
     has_far_ = false;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {

@@ -148,6 +148,7 @@ struct Bodies {
     std::vector<ContactForce> contacts;       ///< the list, in its order; also what may touch, and bears nothing yet
     double list_age = 0;                      ///< s since it was made
     double list_margin = 0;                   ///< m, gaps up to this are in it
+    std::uint64_t list_edge = 0;              ///< units, of the cells that give it its order
     std::vector<ContactForce> sleeping;       ///< contacts of the bodies that are asleep
     std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
     double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
@@ -283,6 +284,12 @@ template <class Real>
 void drop_contact_list(Bodies<Real>& bodies) {
     bodies.newly_piled = bodies.newly_piled || !bodies.listed.empty();
     bodies.listed.clear();
+}
+
+/// Forgets the contacts of a body that no contact holds up any more.
+template <class Real>
+void drop_contacts_of(Bodies<Real>& bodies, std::uint32_t slot) {
+    std::erase_if(bodies.contacts, [slot](const ContactForce& c) { return c.a == slot || c.code == slot; });
 }
 
 /// Forgets the contacts of bodies that are gone.

@@ -34,7 +34,7 @@ std::optional<Index> Placement<Real>::overlapping(Index i, Index end) {
     const auto radius = static_cast<double>(bodies.motion[i].radius);
     std::optional<Index> first;
     cells_.for_each_meeting(ball_of(i), [&](Index other) {
-        if (other == i || other >= end || (first && *first <= other)) return;
+        if (other == i || other >= end || (first && bodies.slot[*first] <= bodies.slot[other])) return;
         if (is_prescribed(bodies.kind[i]) && is_prescribed(bodies.kind[other])) return;
         const auto other_radius = static_cast<double>(bodies.motion[other].radius);
         const double gap = length(separation(state_, state_.bodies.motion[i], state_.bodies.motion[other], {}, {})) -

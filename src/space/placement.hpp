@@ -23,8 +23,8 @@ public:
         valid_ = false;
     }
 
-    /// A body that overlaps body `i` by more than rounding, if there is one; of several the one with the least place in
-    /// memory. Bodies from `end` on do not count. Static bodies may overlap each other.
+    /// A body that overlaps body `i` by more than rounding, if there is one; of several the one in the lowest slot.
+    /// Bodies from `end` on do not count. Static bodies may overlap each other.
     std::optional<Index> overlapping(Index i, Index end);
 
     /// To be called when the bodies from `first` to `last` are new, have moved or have come to these places in memory.

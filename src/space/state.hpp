@@ -10,6 +10,7 @@
 #include <carom/events.hpp>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace carom::core {
@@ -179,16 +180,22 @@ inline double pull_of(const PointField& field, double distance_squared) {
     return field.strength / (divisible * std::sqrt(divisible));
 }
 
-/// Acceleration by all attractors at the place x (units) of the body in `slot`, m/s^2.
-template <class Real>
-Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
+/// Acceleration by some attractors at the place x (units) of the body in `slot`, m/s^2.
+inline Vec3 attraction(std::span<const PointField> fields, const Resolution& resolution, const Int3& x,
+                       std::uint32_t slot) {
     Vec3 sum{};
-    for (const PointField& field : state.laws.fields) {
+    for (const PointField& field : fields) {
         if (field.carrier == slot) continue;
-        const Vec3 d = to_metres(field.x - x, state.resolution);
+        const Vec3 d = to_metres(field.x - x, resolution);
         sum += d * pull_of(field, length_squared(d));
     }
     return sum;
+}
+
+/// By those of the present step.
+template <class Real>
+Vec3 attraction(const State<Real>& state, const Int3& x, std::uint32_t slot) {
+    return attraction(state.laws.fields, state.resolution, x, slot);
 }
 
 template <class Real>

@@ -119,8 +119,8 @@ template <class Real>
 Engine<Real>::Engine(const Engine& other)
     : setting_(other.setting_), world_tag_(other.world_tag_), state_(other.state_), attractors_(other.attractors_),
       attractor_places_(other.attractor_places_), clock_(other.clock_), ledger_(other.ledger_), report_(other.report_),
-      impacts_(other.impacts_), pile_(state_), serial_(state_), islands_(state_, serial_), placement_(state_),
-      last_start_(other.last_start_), last_step_(other.last_step_) {
+      contact_changes_(other.contact_changes_), impacts_(other.impacts_), pile_(state_), serial_(state_),
+      islands_(state_, serial_), placement_(state_), last_start_(other.last_start_), last_step_(other.last_step_) {
     set_executor(other.executor_);
 }
 
@@ -188,9 +188,22 @@ Region Engine<Real>::region() const {
     auto* const planes = std::get_if<std::vector<Plane>>(&region);
     for (const Bounds::Wall& wall : state_.bounds.walls()) {
         const Vec3 way = wall.normal * -wall.offset;
-        if (box != nullptr) (wall.face % 2 == 0 ? box->min : box->max) += way;
-        if (planes != nullptr) planes->at(static_cast<std::size_t>(wall.face)).point += way;
+        const auto face = static_cast<std::size_t>(wall.face);
+        if (box != nullptr) (face % 2 == 0 ? box->min : box->max) += way;
+        if (planes != nullptr) planes->at(face).point += way;
+        if (box != nullptr) box->faces.at(face).motion.phase = wall.phase.value();
+        if (planes != nullptr) planes->at(face).motion.phase = wall.phase.value();
     }
+    const Vec3 shift = to_metres(setting_.first_origin - setting_.origin, setting_.resolution);
+    if (shift == Vec3{}) return region;
+    if (box != nullptr) {
+        box->min += shift;
+        box->max += shift;
+    }
+    if (planes != nullptr) {
+        for (Plane& plane : *planes) plane.point += shift;
+    }
+    if (auto* const shell = std::get_if<Shell>(&region)) shell->centre += shift;
     return region;
 }
 

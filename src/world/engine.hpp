@@ -104,9 +104,20 @@ private:
     void drop_last(std::size_t remaining);
     void check_overlaps_of_new(std::size_t first_new);
     BodyId give_id(Index index);
-    void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap);
+    /// What a body was before it was set.
+    struct Former {
+        Motion<Real> motion;
+        Kind kind;
+        Real mass;     ///< kg
+        double radius; ///< m
+        double growth; ///< m/s
+    };
+    [[nodiscard]] std::vector<Former> formers_of(std::span<const Index> indices) const;
+    [[nodiscard]] bool is_as(const Former& former, Index i) const;
+    void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices,
+                     std::span<const Former> formers, Overlap overlap);
     void note_places(const std::vector<Index>& indices);
-    void check_moved(const std::vector<Index>& indices);
+    void check_moved(const std::vector<Index>& indices, std::span<const Former> formers);
     void write_columns(const ConstBodyColumns& columns, const std::vector<Index>& indices);
     void set_growth(std::span<const double> rates, std::span<const Index> indices);
     [[nodiscard]] std::vector<Kind> kinds_of(std::span<const Index> indices) const;

@@ -44,6 +44,8 @@ void check_mass(double mass, std::size_t place) {
     if (std::isnan(mass)) throw Error(ErrorCode::not_finite, "mass", "must be a number, got " + shown(mass), place);
     if (!(mass > 0)) throw Error(ErrorCode::out_of_range, "mass", "must be > 0, got " + shown(mass), place);
     check_kept<Real>(mass, "mass", place);
+    if (std::isfinite(static_cast<Real>(1 / mass))) return;
+    throw Error(ErrorCode::out_of_range, "mass", "is too small for the world's precision, got " + shown(mass), place);
 }
 
 /// What a body of infinite mass is.
@@ -301,10 +303,14 @@ void Engine<Real>::note_places(const std::vector<Index>& indices) {
     for (const Index i : indices) placement_.note(i, i);
 }
 
+/// What lies somewhere has sunk in a little: only what has come there or has grown is asked.
 template <class Real>
-void Engine<Real>::check_moved(const std::vector<Index>& indices) {
+void Engine<Real>::check_moved(const std::vector<Index>& indices, std::span<const Former> formers) {
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (!is_prescribed(state_.bodies.kind[indices[k]])) check_inside(state_.bodies.motion[indices[k]], k);
+        const Motion<Real>& m = state_.bodies.motion[indices[k]];
+        const bool is_let_loose = is_prescribed(formers[k].kind) && !is_prescribed(state_.bodies.kind[indices[k]]);
+        if (m.x == formers[k].motion.x && !(m.radius > formers[k].motion.radius) && !is_let_loose) continue;
+        if (!is_prescribed(state_.bodies.kind[indices[k]])) check_inside(m, k);
         const auto other = placement_.overlapping(indices[k], static_cast<Index>(size()));
         if (!other) continue;
         throw Error(ErrorCode::overlap, "position",
@@ -313,20 +319,35 @@ void Engine<Real>::check_moved(const std::vector<Index>& indices) {
 }
 
 template <class Real>
-void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices, Overlap overlap) {
+auto Engine<Real>::formers_of(std::span<const Index> indices) const -> std::vector<Former> {
+    std::vector<Former> formers;
+    formers.reserve(indices.size());
+    const Bodies<Real>& bodies = state_.bodies;
+    for (const Index i : indices) {
+        formers.push_back(
+            {bodies.motion[i], bodies.kind[i], bodies.mass[i], radius_at(bodies, i, 0), growth_of(bodies, i)});
+    }
+    return formers;
+}
+
+/// Whether a body moves as before, as far as that was written. Its kind tells of nothing else.
+template <class Real>
+bool Engine<Real>::is_as(const Former& former, Index i) const {
+    const Bodies<Real>& bodies = state_.bodies;
+    return former.motion.x == bodies.motion[i].x && former.motion.v == bodies.motion[i].v &&
+           former.mass == bodies.mass[i] && former.radius == radius_at(bodies, i, 0) &&
+           former.growth == growth_of(bodies, i);
+}
+
+template <class Real>
+void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices,
+                               std::span<const Former> formers, Overlap overlap) {
     if (columns.position.empty() && columns.radius.empty() && columns.mass.empty()) return;
     islands_.vicinity().forget();
     Bodies<Real>& bodies = state_.bodies;
     const std::vector<Int3> positions = positions_of(columns);
-    struct Former {
-        Motion<Real> motion;
-        Kind kind;
-    };
-    std::vector<Former> formers;
-    formers.reserve(indices.size());
     for (std::size_t k = 0; k < indices.size(); ++k) {
         const Index i = indices[k];
-        formers.push_back({bodies.motion[i], bodies.kind[i]});
         if (!positions.empty()) bodies.motion[i].x = positions[k];
         if (!columns.radius.empty()) bodies.motion[i].radius = static_cast<Real>(columns.radius[k]);
         if (!columns.mass.empty() && std::isinf(columns.mass[k])) bodies.kind[i] = Kind::fixed;
@@ -336,7 +357,7 @@ void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vecto
     }
     note_places(indices);
     try {
-        if (overlap == Overlap::refuse) check_moved(indices);
+        if (overlap == Overlap::refuse) check_moved(indices, formers);
     } catch (...) {
         for (std::size_t k = indices.size(); k-- > 0;) {
             bodies.motion[indices[k]] = formers[k].motion;
@@ -386,28 +407,34 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     check_values(columns, ids.size());
     const std::vector<Index> indices = indices_of(ids);
     forget_sums();
-    const std::vector<Kind> former_kinds = kinds_of(indices);
-    move_bodies(columns, indices, overlap);
+    const std::vector<Former> formers = formers_of(indices);
+    move_bodies(columns, indices, formers, overlap);
     write_columns(columns, indices);
-    wake_all_for(former_kinds);
+    const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
+    const auto has_changed = [&](std::size_t k) { return !is_as(formers[k], indices[k]); };
+    bool one_has_changed = false;
+    for (std::size_t k = 0; k < indices.size(); ++k) one_has_changed = one_has_changed || has_changed(k);
+    if (!one_has_changed && !meets_otherwise) return;
+    if (std::any_of(formers.begin(), formers.end(), [](const Former& f) { return is_still(f.kind); })) {
+        wake_all(state_.bodies);
+    }
     const bool moved =
         !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
-    const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
     if (moved || meets_otherwise) drop_contact_list(state_.bodies);
-    if (!moved && columns.velocity.empty()) return;
     for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (!has_changed(k)) continue;
         islands_.vicinity().disturb(indices[k]);
         Kind& kind = state_.bodies.kind[indices[k]];
         if (rests(kind)) kind = Kind::free;
         if (is_prescribed(kind)) kind = prescribed_kind(state_.bodies.motion[indices[k]]);
-        const Kind former = former_kinds[k];
-        if (former == Kind::fixed && (moved || kind != Kind::fixed)) release_from(state_.bodies, ids[k].slot);
+        const Kind former = formers[k].kind;
+        if (former == Kind::fixed) release_from(state_.bodies, ids[k].slot);
         if (former == Kind::held) state_.bodies.holds.erase(ids[k].slot);
         if (former == Kind::kinematic) state_.bodies.kinematics.erase(ids[k].slot);
         if (kind == Kind::kinematic) state_.bodies.kinematics.insert(ids[k].slot);
         if (kind == former || !is_prescribed(kind)) continue;
+        drop_contacts_of(state_.bodies, ids[k].slot);
         islands_.vicinity().forget();
-        drop_contact_list(state_.bodies);
     }
 }
 
@@ -432,6 +459,7 @@ void Engine<Real>::remove(std::span<const BodyId> ids) {
         if (index < size()) placement_.note(index, index);
     }
     drop_stale_contacts(state_.bodies);
+    update_top_growth(state_.bodies);
 }
 
 template <class Real>

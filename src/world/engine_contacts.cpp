@@ -57,7 +57,7 @@ void Engine<Real>::add_held(std::uint32_t slot, const Hold& hold, std::vector<Co
     const Index body = state_.bodies.slots[slot];
     const auto mass = static_cast<double>(state_.bodies.mass[body]);
     const Motion<Real>& m = state_.bodies.motion[body];
-    Vec3 push = (state_.laws.gravity + attraction(state_, body)) * mass;
+    Vec3 push = (state_.laws.gravity + attraction(placed_fields(), state_.resolution, m.x, slot)) * mass;
     for (const Support& s : hold.supports) push += s.normal * (s.bend * length_squared(velocity_of(m)) * mass);
     const std::array<double, 3> shares = share_out(push, hold.supports);
     double all = 0;

@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 9;
+constexpr std::uint32_t snapshot_version = 10;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -302,8 +302,8 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
     archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.listed,
-            b.contacts, b.sleeping, b.list_age, b.list_margin, b.piece_rate, b.recent_flights, state_.books,
-            attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
+            b.contacts, b.sleeping, b.list_age, b.list_margin, b.list_edge, b.piece_rate, b.recent_flights,
+            state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
     state_.bounds.transfer_motion(archive);
 }
@@ -448,8 +448,10 @@ bool Engine<Real>::contacts_are_sound() const {
     check_not_negative(b.list_age, "list_age");
     check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
-    const auto is_asleep = [&](std::uint32_t slot) { return exists(slot) && b.kind[b.slots[slot]] == Kind::asleep; };
+    // One that was struck in the last piece is awake already, its island in the next.
+    const auto sleeps = [&](std::uint32_t slot) { return exists(slot) && leans(b.kind[b.slots[slot]]); };
     const auto can_lean = [](Kind kind) { return !is_still(kind) && !is_prescribed(kind); };
+    if (!b.listed.empty() && b.list_edge == 0) return false;
     std::vector<bool> is_listed(b.slots.size(), false);
     for (const ListedBody& l : b.listed) {
         check_not_negative(l.still, "listed");
@@ -459,17 +461,19 @@ bool Engine<Real>::contacts_are_sound() const {
     const auto can_bear = [&](std::uint32_t slot) {
         return exists(slot) && (b.listed.empty() || is_listed[slot] || is_prescribed(b.kind[b.slots[slot]]));
     };
-    const auto are_sound = [&](const std::vector<ContactForce>& contacts, const auto& leans, const auto& bears) {
+    const auto are_sound = [&](const std::vector<ContactForce>& contacts, const auto& is_lower, const auto& bears) {
         return std::all_of(contacts.begin(), contacts.end(), [&](const ContactForce& c) {
             check_not_negative(c.normal, "contact");
             check_finite(c.friction, "contact");
             const bool is_wall = (c.code & Support::wall_bit) != 0;
-            return leans(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
+            return is_lower(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
         });
     };
     const auto is_awake = [&](std::uint32_t slot) { return can_bear(slot) && !is_prescribed(b.kind[b.slots[slot]]); };
-    const auto is_still_slot = [&](std::uint32_t slot) { return exists(slot) && is_still(b.kind[b.slots[slot]]); };
-    return are_sound(b.contacts, is_awake, can_bear) && are_sound(b.sleeping, is_asleep, is_still_slot);
+    const auto bears_sleepers = [&](std::uint32_t slot) {
+        return sleeps(slot) || (exists(slot) && is_still(b.kind[b.slots[slot]]));
+    };
+    return are_sound(b.contacts, is_awake, can_bear) && are_sound(b.sleeping, sleeps, bears_sleepers);
 }
 
 template <class Real>
@@ -505,7 +509,7 @@ std::uint64_t Engine<Real>::hash() const {
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
-    hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin);
+    hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin, state_.bodies.list_edge);
     for (const auto* contacts : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
         for (const ContactForce& c : *contacts) {
             hasher(c.a, c.code, c.normal);

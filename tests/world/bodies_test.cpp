@@ -321,17 +321,22 @@ INSTANTIATE_TEST_SUITE_P(Precisions, Rest, test::both_precisions(), test::precis
 
 TEST_P(Rest, EndsWithASetVelocityPositionMassOrRadius) {
     const std::array<BodyId, 1> ids{on_floor_};
-    const std::array<Vec3, 1> place{Vec3{0, 0, 0.5}};
-    const std::array<Vec3, 1> still{Vec3{}};
-    const std::array<double, 1> one{1};
+    const std::array<Vec3, 1> place{Vec3{0.25, 0, 0.5}};
+    const std::array<Vec3, 1> slow{Vec3{0, 0, -1e-3}};
+    const std::array<double, 1> two{2};
     const std::array<double, 1> half{0.5};
-    for (const ConstBodyColumns& columns : {ConstBodyColumns{.velocity = still}, ConstBodyColumns{.position = place},
-                                            ConstBodyColumns{.mass = one}, ConstBodyColumns{.radius = half}}) {
+    const std::array<double, 1> quarter{0.25};
+    for (const ConstBodyColumns& columns : {ConstBodyColumns{.velocity = slow}, ConstBodyColumns{.position = place},
+                                            ConstBodyColumns{.mass = two}, ConstBodyColumns{.radius = quarter}}) {
         world_.set(ids, columns);
         EXPECT_FALSE(world_.held(on_floor_));
-        world_.step(0.01);
+        for (int k = 0; k < 100; ++k) world_.step(0.01);
         EXPECT_TRUE(world_.held(on_floor_)) << "it touches the floor again";
     }
+    // Nor does what says how it is already.
+    const Body as_it_is = world_.get(on_floor_);
+    world_.set(on_floor_, as_it_is);
+    EXPECT_TRUE(world_.held(on_floor_));
     for (const ConstBodyColumns& columns :
          {ConstBodyColumns{.restitution = half}, ConstBodyColumns{.friction = half}, ConstBodyColumns{}}) {
         world_.set(ids, columns);
@@ -434,6 +439,14 @@ TEST_P(Bodies, ACarriedAttractorMovesWithItsBodyAndSparesIt) {
     // Half a kick from (0, 0), half a kick from (0, 100).
     EXPECT_NEAR(v.x, -0.5 * 4 / 100.0 - 0.5 * 4 * 10 / std::pow(10100, 1.5), 1e-4);
     EXPECT_NEAR(v.y, -0.5 * 4 * 100 / std::pow(10100, 1.5), 1e-5);
+}
+
+TEST_P(Bodies, WhatIsTooLightForThePrecisionIsRefused) {
+    World world = open_world();
+    const double least = is_single() ? 2.9e-39 : 5.6e-309; // a little less than the inverse of the largest number
+    expect_refused(world, {ErrorCode::out_of_range, "mass", 0}, "too light",
+                   [&](World& w) { w.add({.mass = 0.9 * least}); });
+    world.add({.mass = 1.1 * least});
 }
 
 TEST_P(Bodies, EachOfManyIsPulledByAllAttractorsButItsOwn) {
