@@ -350,10 +350,8 @@ void Engine<Real>::move_bodies(const ConstBodyColumns& columns, const std::vecto
         const Index i = indices[k];
         if (!positions.empty()) bodies.motion[i].x = positions[k];
         if (!columns.radius.empty()) bodies.motion[i].radius = static_cast<Real>(columns.radius[k]);
-        if (!columns.mass.empty() && std::isinf(columns.mass[k])) bodies.kind[i] = Kind::fixed;
-        if (!columns.mass.empty() && is_prescribed(bodies.kind[i]) && !std::isinf(columns.mass[k])) {
-            bodies.kind[i] = Kind::free;
-        }
+        if (columns.mass.empty() || std::isinf(columns.mass[k]) == is_prescribed(bodies.kind[i])) continue;
+        bodies.kind[i] = std::isinf(columns.mass[k]) ? Kind::fixed : Kind::free;
     }
     note_places(indices);
     try {

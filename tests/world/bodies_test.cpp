@@ -441,6 +441,16 @@ TEST_P(Bodies, ACarriedAttractorMovesWithItsBodyAndSparesIt) {
     EXPECT_NEAR(v.y, -0.5 * 4 * 100 / std::pow(10100, 1.5), 1e-5);
 }
 
+TEST_P(Bodies, AKinematicBodyMayBeSetAsItIs) {
+    World world = open_world();
+    const BodyId ram = world.add({.velocity = {1, 0, 0}, .mass = infinite_mass});
+    const Body as_it_is = world.get(ram);
+    world.set(ram, as_it_is);
+    EXPECT_EQ(World::load(world.save()).hash(), world.hash());
+    world.step(1);
+    EXPECT_EQ(world.get(ram).position, (Vec3{1, 0, 0}));
+}
+
 TEST_P(Bodies, WhatIsTooLightForThePrecisionIsRefused) {
     World world = open_world();
     const double least = is_single() ? 2.9e-39 : 5.6e-309; // a little less than the inverse of the largest number
