@@ -70,6 +70,27 @@ double mass_of(const State<Real>& state, Index body) {
     return static_cast<double>(state.bodies.mass[body]);
 }
 
+/// Brings a body to a surface. Its position is rounded there, at one height always the same way, and what bounces would
+/// gain or lose energy each time: so it takes the velocity that its fall has at the rounded place.
+template <class Real>
+void come_to_surface(State<Real>& state, Index body, double time, Entry& entry) {
+    const Motion<Real> before = state.bodies.motion[body];
+    const Vec3 d = displacement(velocity_of(before), acceleration_of(state, body), time - before.t);
+    take_part(state, body, time, entry);
+    const double g = length(state.laws.gravity);
+    if (g == 0 || state.bodies.kind[body] != Kind::free) return;
+    const Vec3 down = state.laws.gravity / g;
+    const Vec3 off = to_metres(state.bodies.motion[body].x - before.x, state.resolution) - d;
+    const Vec3 v = velocity_of(state.bodies.motion[body]);
+    const double fall = dot(v, down);
+    const double square = fall * fall + 2 * g * dot(off, down);
+    // At the top of its path it is nowhere but there.
+    constexpr double least_part = 0.25;
+    if (!(square > least_part * (fall * fall))) return;
+    set_velocity(state, body, v + down * (std::copysign(std::sqrt(square), fall) - fall));
+    entry.outer_impulse += (velocity_of(state.bodies.motion[body]) - v) * mass_of(state, body);
+}
+
 void apply_haste(const Haste& haste, const Laws& laws, double approach, double speed, Encounter& encounter,
                  Occurrence& occurrence) {
     double e = encounter.restitution;
@@ -234,10 +255,11 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     Support support;
     const double growth = growth_of(state.bodies, event.a);
     if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration, growth);
-    take_part(state, event.a, event.time, occurrence.entry);
     if (at_facet) {
+        take_part(state, event.a, event.time, occurrence.entry);
         put_back(state, event.a, wall, occurrence.entry);
     } else {
+        come_to_surface(state, event.a, event.time, occurrence.entry);
         support = support_by_wall(state, wall, touch.normal, m, growth);
     }
     const Encounter encounter =
@@ -458,8 +480,15 @@ void execute_pair(State<Real>& state, const Event& event, Occurrence& occurrence
     const Path<Real> path_b = path_of(state, b);
     const Meeting meeting = meeting_at(state, path_a, path_b, event.time);
     const Vec3 n = contact_normal(meeting.delta, meeting.v_b - meeting.v_a);
-    take_part(state, a, event.time, occurrence.entry);
-    take_part(state, b, event.time, occurrence.entry);
+    const auto bring = [&](Index body, Index other) {
+        if (bodies.kind[other] == Kind::fixed) {
+            come_to_surface(state, body, event.time, occurrence.entry);
+        } else {
+            take_part(state, body, event.time, occurrence.entry);
+        }
+    };
+    bring(a, b);
+    bring(b, a);
     occurrence.impact = {.offset = event.time,
                          .a = bodies.slot[a],
                          .b = bodies.slot[b],
