@@ -72,6 +72,7 @@ void Pile<Real>::gather() {
     }
     accounts_.assign(bodies_.size(), {});
     marks_.assign(bodies_.size(), 0);
+    all_marks_ = 0;
     bodies.newly_piled = false;
 }
 
@@ -86,11 +87,12 @@ void Pile<Real>::resume_list() {
     is_listed_ = true;
     bodies_.resize(bodies.listed.size());
     marks_.assign(list_.movers(), 0);
+    all_marks_ = 0;
     places_.assign(list_.movers(), {});
     accounts_.assign(bodies_.size(), {});
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
         bodies_[k] = bodies.slots[bodies.listed[k].slot];
-        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = gone;
+        if (bodies.kind[bodies_[k]] != Kind::piled) marks_[k] = all_marks_ = gone;
     }
     has_far_ = false;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {

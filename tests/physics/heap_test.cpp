@@ -95,7 +95,7 @@ World make(const Heap& heap, double e, WorldOptions options) {
 }
 
 /// 1/s^2: the square of the rate at which a contact swings, a quarter of the rate of the pieces of a step. There are
-/// 480 of these a second, and two a second for each time that a body outweighs one below it.
+/// 300 of these a second, and two a second for each time that a body outweighs one below it.
 double swing_squared(const Heap& heap) {
     double lightest = heap.bodies.front().mass;
     double heaviest = lightest;
@@ -103,7 +103,7 @@ double swing_squared(const Heap& heap) {
         lightest = std::min(lightest, body.mass);
         heaviest = std::max(heaviest, body.mass);
     }
-    const double swing = 2 * std::numbers::pi * 0.25 * std::max(480.0, 2 * heaviest / lightest);
+    const double swing = 2 * std::numbers::pi * 0.25 * std::max(300.0, 2 * heaviest / lightest);
     return lightest * swing * swing;
 }
 
@@ -119,7 +119,7 @@ void expect_bounded(const Heap& heap, double e, Precision precision, double dt) 
     // Each impact rounds the places of its bodies.
     const double rounding = weight * (precision == Precision::double_precision ? 1e-9 : 1e-5);
     // A step has as many pieces as keep contacts from giving way to their loads by more.
-    double overlap_bound = 0.01;
+    double overlap_bound = 0.015;
     if (std::holds_alternative<carom::Shell>(heap.region)) {
         // What slides in a shell leaves it by v^2 dt^2 / 2 R in a step before it is put back; v^2 is at most 4 g R.
         overlap_bound += 2 * g * dt * dt;
