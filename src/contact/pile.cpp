@@ -21,7 +21,7 @@ constexpr double damping_ratio = 10;
 /// Pieces a second, at least: on a level floor a ball under its own weight overlaps by g / w^2, 4.4e-5 m on Earth.
 constexpr double least_rate = 1 / longest_piece;
 /// Overlap, in diameters, at which a contact is to carry its load.
-constexpr double wanted_overlap = 0.015;
+constexpr double wanted_overlap = 0.01;
 /// Pieces a second for a body on one that is so many times lighter; and the most of them.
 constexpr double rate_per_ratio = 2;
 constexpr double most_rate = 1e5;

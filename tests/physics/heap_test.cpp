@@ -119,7 +119,7 @@ void expect_bounded(const Heap& heap, double e, Precision precision, double dt) 
     // Each impact rounds the places of its bodies.
     const double rounding = weight * (precision == Precision::double_precision ? 1e-9 : 1e-5);
     // A step has as many pieces as keep contacts from giving way to their loads by more.
-    double overlap_bound = 0.015;
+    double overlap_bound = 0.01;
     if (std::holds_alternative<carom::Shell>(heap.region)) {
         // What slides in a shell leaves it by v^2 dt^2 / 2 R in a step before it is put back; v^2 is at most 4 g R.
         overlap_bound += 2 * g * dt * dt;

@@ -356,7 +356,7 @@ void expect_bounded(const Lean& lean, double e, double mu, double mass) {
     EXPECT_NEAR(world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-9 * start);
     // A step has as many pieces as keep contacts from giving way to their loads by more; but for the step in which a
     // body comes to lean, with g rest_time at most.
-    EXPECT_LT(overlap, 0.015 + (g * options.rest_time + g * dt) * dt);
+    EXPECT_LT(overlap, 0.01 + (g * options.rest_time + g * dt) * dt);
     // Each contact is a spring, which swings at a quarter of the rate of the pieces, and gives back no more than it
     // took.
     const double swing = 2 * std::numbers::pi * 0.25 * std::max(300.0, 2 * mass);
