@@ -460,12 +460,13 @@ TEST(Pile, GoesOnFromASnapshot) {
 // While a list of contacts lasts it keeps whom the pile has let go, as here bodies on the surface of a heap: their
 // contacts stay closed in a world that is loaded meanwhile, too.
 TEST(Pile, GoesOnFromASnapshotWithoutWhoWasLetGo) {
-    World world = carom::scene::make_world(carom::scene::workload("pile", 200).scene);
+    World world =
+        carom::scene::make_world(carom::scene::workload("pile", 170, carom::Precision::single_precision).scene);
     constexpr std::size_t ahead = 4;
     std::vector<std::uint64_t> hashes;
     std::vector<std::uint64_t> loaded;
-    run(world, 420 * dt);
-    for (int k = 0; k < 40; ++k) {
+    run(world, 268 * dt);
+    for (int k = 0; k < 12; ++k) {
         World copy = World::load(world.save());
         run(copy, ahead * dt);
         loaded.push_back(copy.hash());
