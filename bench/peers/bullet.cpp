@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -17,15 +18,18 @@ Vec3 from_bullet(const btVector3& v) { return {double(v.x()), double(v.y()), dou
 /// broad phase: twice the time), larger pools, one island for all, larger batches of islands.
 class Bullet final : public Engine {
 public:
-    Bullet(const scene::BodyTable& bodies, const Box& walls) : sphere_(btScalar(bodies.radius.front())) {
+    explicit Bullet(const scene::Scene& scene) : sphere_(btScalar(scene.bodies.radius.front())) {
+        const scene::BodyTable& bodies = scene.bodies;
         broadphase_.m_deferedcollide = true; // all pairs in one sweep after all bodies moved: a fifth of the time less
-        world_.setGravity({0, 0, 0});
+        world_.setGravity(to_bullet(scene.options.gravity));
         world_.getDispatchInfo().m_useContinuous = false;
-        world_.getSolverInfo().m_restitutionVelocityThreshold = 0; // else slow impacts are inelastic
-        add_walls(to_bullet(walls.min), to_bullet(walls.max));
+        world_.getSolverInfo().m_restitutionVelocityThreshold = btScalar(slowest_bounce(scene));
+        // The product of two restitutions counts.
+        const double restitution = std::sqrt(restitution_between(scene));
+        add_walls(scene, restitution);
         spheres_.reserve(bodies.size());
         for (std::size_t i = 0; i < bodies.size(); ++i) {
-            spheres_.push_back(add(sphere_, btScalar(bodies.mass[i]), to_bullet(bodies.position[i])));
+            spheres_.push_back(add(sphere_, bodies.mass[i], to_bullet(bodies.position[i]), restitution));
             spheres_.back()->setLinearVelocity(to_bullet(bodies.velocity[i]));
         }
     }
@@ -43,13 +47,13 @@ public:
     }
 
 private:
-    /// Elastic, without friction, awake for ever; static if `mass` is 0. The product of two restitutions counts.
-    btRigidBody* add(btCollisionShape& shape, btScalar mass, const btVector3& position) {
+    /// Without friction, awake for ever; static if `mass` is 0.
+    btRigidBody* add(btCollisionShape& shape, double mass, const btVector3& position, double restitution) {
         btVector3 inertia(0, 0, 0);
-        if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-        btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &shape, inertia);
+        if (mass > 0) shape.calculateLocalInertia(btScalar(mass), inertia);
+        btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, &shape, inertia);
         info.m_startWorldTransform.setOrigin(position);
-        info.m_restitution = 1;
+        info.m_restitution = btScalar(restitution);
         info.m_friction = 0;
         bodies_.push_back(std::make_unique<btRigidBody>(info));
         bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
@@ -57,17 +61,20 @@ private:
         return bodies_.back().get();
     }
 
-    void add_walls(const btVector3& min, const btVector3& max) {
+    void add_walls(const scene::Scene& scene, double restitution_of_spheres) {
         constexpr btScalar half_thickness = 2; // m, more than a body moves in a step
-        for (int axis = 0; axis < 3; ++axis) {
+        const btVector3 min = to_bullet(box_of(scene).min);
+        const btVector3 max = to_bullet(box_of(scene).max);
+        for (int number = 0; number < 6; ++number) {
+            const Face& face = box_of(scene).faces[std::size_t(number)];
+            if (face.kind == FaceKind::open) continue;
+            const int axis = number / 2;
             btVector3 half_sides = (max - min) / 2 + btVector3(half_thickness, half_thickness, half_thickness);
             half_sides[axis] = half_thickness;
             walls_.push_back(std::make_unique<btBoxShape>(half_sides));
             btVector3 centre = (min + max) / 2;
-            for (const btScalar coordinate : {min[axis] - half_thickness, max[axis] + half_thickness}) {
-                centre[axis] = coordinate;
-                add(*walls_.back(), 0, centre);
-            }
+            centre[axis] = number % 2 == 0 ? min[axis] - half_thickness : max[axis] + half_thickness;
+            add(*walls_.back(), 0, centre, restitution_at(face, scene) / restitution_of_spheres);
         }
     }
 
@@ -89,8 +96,6 @@ const char* const engine_name = "Bullet";
 const Precision engine_precision =
     sizeof(btScalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision;
 
-std::unique_ptr<Engine> make_engine(const scene::BodyTable& bodies, const Box& walls) {
-    return std::make_unique<Bullet>(bodies, walls);
-}
+std::unique_ptr<Engine> make_engine(const scene::Scene& scene) { return std::make_unique<Bullet>(scene); }
 
 } // namespace carom::peers

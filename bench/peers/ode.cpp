@@ -23,11 +23,14 @@ public:
 /// with fewer and with more.
 class Ode final : public Engine {
 public:
-    Ode(const scene::BodyTable& bodies, const Box& walls) {
+    explicit Ode(const scene::Scene& scene)
+        : restitution_(restitution_between(scene)), slowest_bounce_(slowest_bounce(scene)) {
+        const Vec3& gravity = scene.options.gravity;
+        dWorldSetGravity(world_, dReal(gravity.x), dReal(gravity.y), dReal(gravity.z));
         dWorldSetAutoDisableFlag(world_, 0);
-        add_walls(walls);
-        spheres_.reserve(bodies.size());
-        for (std::size_t i = 0; i < bodies.size(); ++i) add_sphere(bodies, i);
+        add_walls(scene);
+        spheres_.reserve(scene.bodies.size());
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) add_sphere(scene.bodies, i);
     }
     Ode(const Ode&) = delete;
     Ode& operator=(const Ode&) = delete;
@@ -58,20 +61,33 @@ private:
         dContact contact{};
         if (dCollide(a, b, 1, &contact.geom, sizeof contact) == 0) return;
         contact.surface.mode = dContactBounce;
-        contact.surface.bounce = 1;
-        contact.surface.bounce_vel = 0;
+        contact.surface.bounce = dReal(self->bounce_of(a, b));
+        contact.surface.bounce_vel = dReal(self->slowest_bounce_);
         dJointAttach(dJointCreateContact(self->world_, self->contacts_, &contact), dGeomGetBody(a), dGeomGetBody(b));
     }
 
-    void add_walls(const Box& walls) {
-        const std::array<double, 3> min{walls.min.x, walls.min.y, walls.min.z};
-        const std::array<double, 3> max{walls.max.x, walls.max.y, walls.max.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+    /// Only walls belong to no body.
+    [[nodiscard]] double bounce_of(dGeomID a, dGeomID b) const {
+        if (dGeomGetBody(a) != nullptr && dGeomGetBody(b) != nullptr) return restitution_;
+        const dGeomID wall = dGeomGetBody(a) == nullptr ? a : b;
+        return *static_cast<const double*>(dGeomGetData(wall));
+    }
+
+    void add_walls(const scene::Scene& scene) {
+        const Box& box = box_of(scene);
+        const std::array<double, 3> min{box.min.x, box.min.y, box.min.z};
+        const std::array<double, 3> max{box.max.x, box.max.y, box.max.z};
+        for (std::size_t number = 0; number < 6; ++number) {
+            const Face& face = box.faces[number];
+            if (face.kind == FaceKind::open) continue;
+            const std::size_t axis = number / 2;
+            const bool is_upper = number % 2 == 1;
             std::array<dReal, 3> inwards{};
-            inwards[axis] = 1;
-            dCreatePlane(space_, inwards[0], inwards[1], inwards[2], dReal(min[axis]));
-            inwards[axis] = -1;
-            dCreatePlane(space_, inwards[0], inwards[1], inwards[2], dReal(-max[axis]));
+            inwards[axis] = is_upper ? -1 : 1;
+            const double offset = is_upper ? -max[axis] : min[axis];
+            const dGeomID wall = dCreatePlane(space_, inwards[0], inwards[1], inwards[2], dReal(offset));
+            wall_restitutions_[number] = restitution_at(face, scene);
+            dGeomSetData(wall, &wall_restitutions_[number]);
         }
     }
 
@@ -94,6 +110,9 @@ private:
     dSpaceID space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
     dJointGroupID contacts_ = dJointGroupCreate(0);
     std::vector<dBodyID> spheres_;
+    double restitution_;    ///< between spheres
+    double slowest_bounce_; ///< m/s
+    std::array<double, 6> wall_restitutions_{};
 };
 
 } // namespace
@@ -102,8 +121,6 @@ const char* const engine_name = "ODE";
 const Precision engine_precision =
     sizeof(dReal) == sizeof(float) ? Precision::single_precision : Precision::double_precision;
 
-std::unique_ptr<Engine> make_engine(const scene::BodyTable& bodies, const Box& walls) {
-    return std::make_unique<Ode>(bodies, walls);
-}
+std::unique_ptr<Engine> make_engine(const scene::Scene& scene) { return std::make_unique<Ode>(scene); }
 
 } // namespace carom::peers

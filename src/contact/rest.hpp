@@ -72,13 +72,15 @@ Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::
 /// thickness, and contacts give way.
 inline constexpr double deepest_in_surface = 0.5;
 
+/// s, into which the step of a pile is cut at least.
+inline constexpr double longest_piece = 1.0 / 300;
+
 /// Whether a body that moves with `velocity` (m/s) may come to lie on an obstacle. It is piled there, not held, so
 /// gravity has to press it on; and it goes straight for a piece, in which a curved surface must not bend towards it by
 /// more than this part of its radius: contacts undo a fourteenth of an overlap in a piece.
 template <class Real>
 bool may_lie_on_obstacle(const State<Real>& state, const Support& support, double radius, const Vec3& velocity,
                          double e) {
-    constexpr double longest_piece = 1.0 / 480;
     constexpr double most = 0.01;
     const double way = length(velocity) * longest_piece;
     const double contact = state.bounds.obstacles()->contact_distance(radius);
