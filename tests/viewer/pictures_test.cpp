@@ -205,9 +205,11 @@ TEST_F(Pictures, ObstaclesLookAsTheyDid) {
     picture.occlusion_distance = 0.5;
     picture.extent = 6;
     picture.shapes = shapes.shapes(picture.origin);
-    for (const auto& [from, to] : shapes.edges()) {
-        picture.lines.push_back({narrow(from - picture.origin), narrow(to - picture.origin), 1.2F, obstacle_edge_colour,
-                                 obstacle_edge_colour});
+    for (const auto& edges : {shapes.edges(), shapes.meridians(0)}) {
+        for (const auto& [from, to] : edges) {
+            picture.lines.push_back({narrow(from - picture.origin), narrow(to - picture.origin), 1.2F,
+                                     obstacle_edge_colour, obstacle_edge_colour});
+        }
     }
     expect_like_reference(draw(drawing.finished(), {240, 160, 2}), "obstacles.png");
 }
