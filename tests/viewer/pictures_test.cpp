@@ -190,6 +190,41 @@ TEST_F(Pictures, PlainShapesHideFromBothSidesAndComeAnewWithTheirVersion) {
     EXPECT_NEAR(brightness(behind, 10, 50), brightness(before, 89, 50), 12);
 }
 
+/// A square of 2 m around the origin, tilted by `slope` (rad) about y.
+std::vector<Corner> plate(float slope) {
+    const Vec3f u{std::cos(slope), 0, std::sin(slope)};
+    const Vec3f normal{-u.z, 0, u.x};
+    const auto at = [&](float x, float y) { return Corner{u * x + Vec3f{0, y, 0}, normal}; };
+    return {at(-1, -1), at(1, -1), at(1, 1), at(-1, -1), at(1, 1), at(-1, 1)};
+}
+
+TEST_F(Pictures, PlainShapesThrowShadowsAndGlassThrowsNone) {
+    TestDrawing drawing = floor_seen_from_above({});
+    drawing.picture.to_light = {-1, 0, 1};
+    const int in_shadow = 50 + static_cast<int>(5 / (20 * std::tan(0.349066)) * 50);
+    std::uint64_t version = 0;
+    for (const float slope : {-1.2F, -0.4F, 0.0F, 0.4F, 0.7F}) {
+        const std::vector<Corner> corners = plate(slope);
+        for (const bool glass : {false, true}) {
+            drawing.picture.shapes = {{0, 0, 5}, corners, {}, ++version, obstacle_colour};
+            if (glass) std::swap(drawing.picture.shapes.plain, drawing.picture.shapes.glass);
+            drawing.picture.shadows = false;
+            const Image without = draw(drawing.finished());
+            drawing.picture.shadows = true;
+            const Image with = draw(drawing.finished());
+            if (glass) {
+                EXPECT_EQ(with.pixels, without.pixels);
+                continue;
+            }
+            EXPECT_LT(brightness(with, in_shadow, 50), 0.7 * brightness(without, in_shadow, 50)) << slope;
+            // It throws none onto itself.
+            for (int x = 0; x < in_shadow - 20; ++x) {
+                EXPECT_EQ(brightness(with, x, 50), brightness(without, x, 50)) << slope << " " << x;
+            }
+        }
+    }
+}
+
 TEST_F(Pictures, ObstaclesLookAsTheyDid) {
     const std::vector<Obstacle> obstacles{
         Frustum{{0, 0, 0.6}, {0, 0, 1}, 1, 0.4, 1.5}, Frustum{{0, 0, 1.6}, {0, 0, 1}, 1.2, 1.5, 1.5},
@@ -205,9 +240,11 @@ TEST_F(Pictures, ObstaclesLookAsTheyDid) {
     picture.occlusion_distance = 0.5;
     picture.extent = 6;
     picture.shapes = shapes.shapes(picture.origin);
-    for (const auto& [from, to] : shapes.edges()) {
-        picture.lines.push_back({narrow(from - picture.origin), narrow(to - picture.origin), 1.2F, obstacle_edge_colour,
-                                 obstacle_edge_colour});
+    for (const auto& edges : {shapes.edges(), shapes.meridians(0)}) {
+        for (const auto& [from, to] : edges) {
+            picture.lines.push_back({narrow(from - picture.origin), narrow(to - picture.origin), 1.2F,
+                                     obstacle_edge_colour, obstacle_edge_colour});
+        }
     }
     expect_like_reference(draw(drawing.finished(), {240, 160, 2}), "obstacles.png");
 }

@@ -262,7 +262,44 @@ TEST(ObstacleShapes, OfAFunnelAreGlassThatTurnsOutwards) {
     const Ball& ball = *shapes.ball();
     EXPECT_LT(ball.radius, 6);
     for (const Corner& corner : drawn.glass) EXPECT_LT(length(corner.place), ball.radius + 1e-5);
-    EXPECT_EQ(shapes.edges().size(), 2 * 96U + 8);
+    EXPECT_EQ(shapes.edges().size(), 2 * 96U);
+    EXPECT_EQ(shapes.meridians(0).size(), 8U);
+    EXPECT_EQ(shapes.meridians(1), shapes.meridians(0)); // it stands still
+}
+
+/// The angle in rad by which `line` has turned round z.
+double turned(const Line& before, const Line& line) {
+    return std::atan2(before.from.x * line.from.y - before.from.y * line.from.x,
+                      before.from.x * line.from.x + before.from.y * line.from.y);
+}
+
+TEST(Stages, TurnTheMeridiansOfWhatTurns) {
+    // A drum, a turntable the other way, and a disc that stands still, which has no meridians.
+    const std::vector<Obstacle> obstacles{
+        Frustum{.base = {0, 0, 0}, .axis = {0, 0, 2}, .angular_velocity = 0.5},
+        Frustum{.base = {0, 0, 3}, .axis = {0, 0, -1}, .height = 0, .base_radius = 2, .angular_velocity = 0.25},
+        Frustum{.base = {0, 0, 5}, .height = 0, .base_radius = 2}};
+    World world = world_of({.obstacles = obstacles}, {{.position = {9, 0, 0}}});
+    Spectator spectator(scene::ColourBy::material);
+    Stage stage(obstacles);
+    const Camera camera{{0, -20, 9}, {0, 0, 0}};
+    constexpr std::size_t rims = 3 * 2 * 96;
+    const auto lines_at = [&](double time) { return stage.draw(*spectator.look(world, false), time, camera).lines; };
+    const std::vector<Line> before = lines_at(0);
+    ASSERT_EQ(before.size(), rims + 2 * 8);
+    for (int i = 0; i < 3; ++i) {
+        world.step(0.5);
+        spectator.watch_step(world);
+        for (const double time : {world.time() - 0.5, world.time() - 0.2, world.time()}) {
+            const std::vector<Line> lines = lines_at(time);
+            for (std::size_t k = 0; k < rims; ++k) ASSERT_EQ(lines[k].from, before[k].from);
+            for (std::size_t k = 0; k < 8; ++k) {
+                EXPECT_NEAR(turned(before[rims + k], lines[rims + k]), 0.5 * time, 1e-6);
+                EXPECT_NEAR(turned(before[rims + 8 + k], lines[rims + 8 + k]), -0.25 * time, 1e-6);
+                EXPECT_EQ(lines[rims + k].to.z - lines[rims + k].from.z, 1);
+            }
+        }
+    }
 }
 
 TEST(ObstacleShapes, OfClosedMeshesAreGlassWhicheverWayTheyRunRound) {

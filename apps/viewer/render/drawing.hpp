@@ -86,8 +86,8 @@ struct Corner {
 /// Surfaces made of triangles: three corners each, counterclockwise as seen from outside.
 struct Shapes {
     Vec3f anchor{};                  ///< m, from Drawing::origin
-    std::span<const Corner> plain{}; ///< seen from both sides
-    std::span<const Corner> glass{}; ///< seen from inside; from outside one looks through it
+    std::span<const Corner> plain{}; ///< seen from both sides; throw shadows
+    std::span<const Corner> glass{}; ///< seen from inside; from outside one looks through it, and so does the light
     std::uint64_t version = 0;       ///< another number whenever corners differ from those of the picture before
     Colour colour{};
 };

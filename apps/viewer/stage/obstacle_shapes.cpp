@@ -15,8 +15,8 @@ namespace carom::viewer {
 
 namespace {
 
-constexpr int segments = 96; ///< of a circle
-constexpr int meridians = 8; ///< of a frustum that are drawn as lines
+constexpr int segments = 96;            ///< of a circle
+constexpr int meridians_of_frustum = 8; ///< that are drawn as lines
 
 /// The box around points and circles.
 class Extent {
@@ -52,8 +52,8 @@ struct Axes {
         : along(unit(frustum.axis)), u(unit(cross(along, std::abs(along.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}))),
           v(cross(along, u)) {}
 
-    [[nodiscard]] Vec3 radial(int segment) const {
-        const double angle = 2 * std::numbers::pi * segment / segments;
+    [[nodiscard]] Vec3 radial(double turns) const {
+        const double angle = 2 * std::numbers::pi * turns;
         return u * std::cos(angle) + v * std::sin(angle);
     }
 };
@@ -168,7 +168,7 @@ void ObstacleShapes::add(const Frustum& frustum) {
     const bool flat = frustum.height == 0; // a disc or a ring
     std::vector<Corner>& corners = flat ? plain_ : glass_;
     for (int i = 0; i < segments; ++i) {
-        const std::array radials{axes.radial(i), axes.radial(i + 1)};
+        const std::array radials{axes.radial(1.0 * i / segments), axes.radial((i + 1.0) / segments)};
         std::array<Vec3, 2> low;
         std::array<Vec3, 2> high;
         std::array<Vec3, 2> normal;
@@ -187,8 +187,9 @@ void ObstacleShapes::add(const Frustum& frustum) {
         }
         edges_.emplace_back(low[0], low[1]);
         edges_.emplace_back(high[0], high[1]);
-        if (!flat && i % (segments / meridians) == 0) edges_.emplace_back(low[0], high[0]);
     }
+    // Those of a disc would say nothing unless it turns.
+    if (!flat || frustum.angular_velocity != 0) frustums_.push_back(frustum);
 }
 
 void ObstacleShapes::add(const Mesh& mesh) {
@@ -205,6 +206,20 @@ void ObstacleShapes::add(const Mesh& mesh) {
     for (const auto& [ends, sides] : edges) {
         if (tells_the_form(sides)) edges_.push_back(ends);
     }
+}
+
+ObstacleShapes::Segments ObstacleShapes::meridians(double time) const {
+    Segments lines;
+    for (const Frustum& frustum : frustums_) {
+        const Axes axes(frustum);
+        const Vec3 top = frustum.base + axes.along * frustum.height;
+        const double turns = std::fmod(frustum.angular_velocity * time / (2 * std::numbers::pi), 1.0);
+        for (int i = 0; i < meridians_of_frustum; ++i) {
+            const Vec3 radial = axes.radial(turns + 1.0 * i / meridians_of_frustum);
+            lines.emplace_back(frustum.base + radial * frustum.base_radius, top + radial * frustum.top_radius);
+        }
+    }
+    return lines;
 }
 
 Shapes ObstacleShapes::shapes(const Vec3& origin) const {

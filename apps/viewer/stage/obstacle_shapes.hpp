@@ -24,8 +24,12 @@ public:
     [[nodiscard]] const std::optional<Ball>& ball() const { return ball_; }
     /// For a drawing with this origin (m); valid as long as this object.
     [[nodiscard]] Shapes shapes(const Vec3& origin) const;
-    /// Rims, meridians, borders and creases, from and to (m).
-    [[nodiscard]] const std::vector<std::pair<Vec3, Vec3>>& edges() const { return edges_; }
+    /// From and to (m).
+    using Segments = std::vector<std::pair<Vec3, Vec3>>;
+    /// Rims, borders and creases.
+    [[nodiscard]] const Segments& edges() const { return edges_; }
+    /// Lines from rim to rim of frustums, which turn with them, at `time` (s).
+    [[nodiscard]] Segments meridians(double time) const;
 
 private:
     void add(const Frustum& frustum);
@@ -35,7 +39,8 @@ private:
     std::optional<Ball> ball_;
     std::vector<Corner> plain_;
     std::vector<Corner> glass_;
-    std::vector<std::pair<Vec3, Vec3>> edges_;
+    Segments edges_;
+    std::vector<Frustum> frustums_; ///< with meridians
     std::uint64_t version_ = 0;
 };
 

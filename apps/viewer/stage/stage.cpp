@@ -107,7 +107,7 @@ const Drawing& Stage::draw(const Moment& moment, double time, const Camera& came
     drawing_.panels.clear();
     drawing_.hollow.reset();
     draw_region(region, seen);
-    draw_obstacles();
+    draw_obstacles(time);
     draw_attractors(moment);
     draw_forces(moment, time);
     remember_trails(moment, time);
@@ -178,9 +178,10 @@ void Stage::draw_shell(const Shell& shell) {
     drawing_.hollow = Hollow{local(shell.centre), static_cast<float>(shell.radius), faded(panel_colour, 0.6)};
 }
 
-void Stage::draw_obstacles() {
+void Stage::draw_obstacles(double time) {
     drawing_.shapes = obstacles_.shapes(drawing_.origin);
     for (const auto& [from, to] : obstacles_.edges()) add_outline(from, to, obstacle_edge_colour);
+    for (const auto& [from, to] : obstacles_.meridians(time)) add_outline(from, to, obstacle_edge_colour);
 }
 
 /// Those that no body carries, as crosses.

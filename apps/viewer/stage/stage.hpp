@@ -47,7 +47,7 @@ public:
 private:
     void follow_bodies(const Moment& moment);
     void draw_region(const Region& region, const Ball& bodies);
-    void draw_obstacles();
+    void draw_obstacles(double time);
     void draw_box(const Box& box);
     void draw_plane(const Plane& plane, const Ball& bodies);
     void draw_shell(const Shell& shell);

@@ -89,6 +89,8 @@ GlRenderer::Programs::Programs()
       panel(make_program("panel", {shaders::frame, shaders::panel_vertex}, {shaders::frame, shaders::panel_fragment})),
       hollow(
           make_program("hollow", {shaders::frame, shaders::screen_vertex}, {shaders::frame, shaders::hollow_fragment})),
+      shape_shadow(make_program("shape_shadow", {shaders::frame, "#define SHADOW\n", shaders::shape_vertex},
+                                {shaders::frame, shaders::depth_fragment})),
       shape(make_program("shape", {shaders::frame, shaders::shape_vertex}, {shaders::frame, shaders::shape_fragment})),
       glass(make_program("glass", {shaders::frame, shaders::shape_vertex}, {shaders::frame, shaders::glass_fragment})),
       occlusion(make_program("occlusion", {shaders::frame, shaders::screen_vertex},
@@ -212,6 +214,11 @@ void GlRenderer::draw_shadows(const Drawing& drawing) {
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glUseProgram(programs_.shadow.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * drawing.bodies.size()));
+    const Shapes& shapes = drawing.shapes;
+    if (shapes.plain.empty()) return;
+    glUseProgram(programs_.shape_shadow.get());
+    glUniform3fv(0, 1, &shapes.anchor.x);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(shapes.plain.size()));
 }
 
 void GlRenderer::draw_surfaces(const Drawing& drawing) {

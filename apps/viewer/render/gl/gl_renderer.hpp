@@ -39,6 +39,7 @@ private:
         ProgramHandle sphere;
         ProgramHandle panel;
         ProgramHandle hollow;
+        ProgramHandle shape_shadow;
         ProgramHandle shape;
         ProgramHandle glass;
         ProgramHandle occlusion;

@@ -172,6 +172,9 @@ const std::string_view shape_vertex = R"(
 struct Corner { vec4 place; vec4 normal; };
 layout(std430, binding = 3) readonly buffer Corners { Corner corners[]; };
 layout(location = 0) uniform vec3 anchor;
+#ifdef SHADOW
+void main() { gl_Position = light_projection * light_view * vec4(anchor + corners[gl_VertexID].place.xyz, 1); }
+#else
 out vec3 point;
 out vec3 outward;
 
@@ -181,6 +184,7 @@ void main() {
     outward = mat3(view) * corner.normal.xyz;
     gl_Position = projection * vec4(point, 1);
 }
+#endif
 )";
 
 const std::string_view shape_fragment = R"(
@@ -195,6 +199,8 @@ void main() {
     normal = vec4(normalize(outward) * (gl_FrontFacing ? 1 : -1), 0);
 }
 )";
+
+const std::string_view depth_fragment = "void main() {}";
 
 const std::string_view glass_fragment = R"(
 layout(location = 1) uniform vec4 colour;

@@ -14,8 +14,9 @@ extern const std::string_view panel_vertex;
 extern const std::string_view panel_fragment;
 extern const std::string_view screen_vertex; ///< one triangle over the whole picture
 extern const std::string_view hollow_fragment;
-extern const std::string_view shape_vertex;
+extern const std::string_view shape_vertex; ///< with SHADOW defined: for the map of shadows
 extern const std::string_view shape_fragment;
+extern const std::string_view depth_fragment; ///< leaves the depth as it is
 extern const std::string_view glass_fragment;
 extern const std::string_view occlusion_fragment;
 extern const std::string_view blur_fragment;
