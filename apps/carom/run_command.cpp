@@ -82,12 +82,9 @@ Ending run_to_its_end(Simulation& simulation, const OutputFolder& folder, double
         return {failure, fmt::format("step {} failed: {}", simulation.steps() + 1, error.what())};
     }
     if (simulation.finished()) return {};
-    std::string message =
-        fmt::format("interrupted after {} of {} steps", simulation.steps(), simulation.schedule().steps);
-    if (simulation.observations().empty()) {
-        message += fmt::format("; go on with --resume {}", folder.file("checkpoint.carom").string());
-    }
-    return {128 + interrupted_by(), std::move(message)};
+    return {128 + interrupted_by(),
+            fmt::format("interrupted after {} of {} steps; go on with --resume {}", simulation.steps(),
+                        simulation.schedule().steps, folder.file("checkpoint.carom").string())};
 }
 
 nlohmann::ordered_json to_json(const scene::Scene& scene, const Simulation& simulation, const scene::Summary& summary) {
