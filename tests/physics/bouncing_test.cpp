@@ -123,6 +123,28 @@ TEST(Bouncing, ElasticApexStaysOverAThousandBounces) {
     EXPECT_LE(largest, 1e-9);
 }
 
+/// Its position is rounded at each impact, at one height always the same way: on a floor and on a static sphere.
+TEST(Bouncing, LowElasticBouncesGainNothingByRounding) {
+    constexpr double height = 1e-4;
+    for (const bool on_sphere : {false, true}) {
+        for (const double size : {0.05, 0.1, 0.3}) {
+            WorldOptions options = floor_under_gravity();
+            if (on_sphere) options.region = carom::OpenSpace{};
+            World world(options);
+            if (on_sphere) world.add({.position = {0, 0, -1}, .mass = carom::infinite_mass, .radius = 1});
+            world.add({.position = {0, 0, size + height}, .radius = size, .restitution = 1});
+            const double before = world.energy().total();
+            constexpr int steps = 2000;
+            for (int k = 0; k < steps; ++k) world.step(0.05);
+            EXPECT_GT(world.ledger().impacts + world.ledger().face_impacts, 10000U);
+            // The ends of steps are rounded at other places each time, by up to 2^-41 m: a random walk, of which four
+            // standard deviations are allowed.
+            const double walk = gravity * 0x1p-41 * std::sqrt(steps / 3.0);
+            EXPECT_NEAR(world.energy().total(), before, 4 * walk) << on_sphere << ' ' << size;
+        }
+    }
+}
+
 // SimBenchmark "bouncing" (github.com/leggedrobotics/SimBenchmark, data/bouncing): 49 elastic balls, 20 s. Metric: mean
 // over all steps of the squared energy error. Published at dt = 1e-3: RaiSim 0.0186, ODE 185, Bullet 75 245 J^2.
 TEST(Bouncing, SimBenchmarkEnergyError) {
