@@ -140,6 +140,7 @@ void read_material_rules(TableReader& top, const std::vector<Material>& material
     for (const Material& material : materials) names.push_back(material.name);
     for (TableReader& table : top.tables("material_rule")) {
         const std::vector<ValueReader> pair = table.need("between").elements(2, "the names of two materials");
+        if (names.empty()) pair[0].fail("must be the name of a [[material]], and there is none");
         MaterialRule rule;
         rule.a = static_cast<std::uint32_t>(pair[0].choice(names) + 1);
         rule.b = static_cast<std::uint32_t>(pair[1].choice(names) + 1);

@@ -81,7 +81,7 @@ std::string to_text(const Summary& s) {
                    s.threads, s.threads == 1 ? "" : "s");
     fmt::format_to(out, "  steps     {} of {:.6g} s in {:.3g} s: {:.4g} ns per body and step\n", grouped(s.steps), s.dt,
                    s.wall_seconds, s.ns_per_body_step);
-    fmt::format_to(out, "  impacts   {} between bodies, {} with walls; {:.3g} a second; {} bodies at rest\n",
+    fmt::format_to(out, "  impacts   {} between bodies, {} with walls; {:.3g} a second; {} resting contacts\n",
                    grouped(s.pair_impacts), grouped(s.face_impacts), s.impacts_per_second, grouped(s.contacts));
     fmt::format_to(out, "  energy    {:.6g} J, then {:.6g} J and {:.6g} J booked as lost: drift {:.2e}\n",
                    s.start.total(), s.end.total(), s.end.lost - s.start.lost, energy_drift(s.start, s.end));

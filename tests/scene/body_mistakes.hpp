@@ -27,6 +27,11 @@ between = ["ice", "ise"]
 restitution = 1
 )",
      "s.toml:4: material_rule[0].between[1]: must be one of ice, got 'ise'; did you mean 'ice'?", ""},
+    {R"([[material_rule]]
+between = ["ice", "ice"]
+restitution = 1
+)",
+     "s.toml:2: material_rule[0].between[0]: must be the name of a [[material]], and there is none", ""},
     {R"([[material]]
 name = "ice"
 [[material_rule]]
