@@ -69,8 +69,12 @@ TEST_F(Pictures, CornersAreDarker) {
     drawing.picture.occlusion_distance = 2;
     const Image with = draw(drawing.finished());
     const auto loss = [&](int x, int y) { return 1.0 - 1.0 * brightness(with, x, y) / brightness(without, x, y); };
-    EXPECT_GT(loss(43, 51), 0.15); // where the spheres turn to the floor
-    EXPECT_GT(loss(61, 51), 0.15);
+    // Where the spheres turn to the floor; single pixels are grainy.
+    const auto mean_loss = [&](int x) {
+        return (loss(x, 51) + loss(x + 1, 51) + loss(x + 2, 51) + loss(x + 3, 51)) / 4;
+    };
+    EXPECT_GT(mean_loss(40), 0.15);
+    EXPECT_GT(mean_loss(58), 0.15);
     EXPECT_LT(loss(40, 35), 0.03); // the top of a sphere
     EXPECT_EQ(loss(50, 90), 0);    // the floor away from them
 }

@@ -99,6 +99,7 @@ struct Drawing {
     std::span<const PackedBody> bodies{};
     std::span<const float> radii{};    ///< m, one for each body
     std::uint64_t radii_version = 0;   ///< another number whenever radii differ from those of the picture before
+    bool planets = true;               ///< some bodies may be of PaletteRow::planet
     std::span<const Colour> palette{}; ///< palette_rows times palette_columns
     std::uint64_t palette_version = 0; ///< the same for the palette
     std::vector<Line> lines{};         ///< hidden by what is in front of them

@@ -88,6 +88,8 @@ const Drawing& Stage::draw(const Moment& moment, double time, const Camera& came
     }
     drawing_.radii = *moment.radii;
     drawing_.radii_version = moment.version;
+    drawing_.planets = std::any_of(moment.attractors.begin(), moment.attractors.end(),
+                                   [](const Attractor& attractor) { return attractor.body.is_set(); });
     drawing_.palette = palette();
     drawing_.palette_version = 1;
     const Region region = moment.region_at(time);

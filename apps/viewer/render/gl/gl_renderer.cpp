@@ -84,8 +84,10 @@ Image read_pixels(GLuint framebuffer, int width, int height) {
 GlRenderer::Programs::Programs()
     : shadow(make_program("shadow", {shaders::frame, "#define SHADOW\n", shaders::sphere_vertex},
                           {shaders::frame, "#define SHADOW\n", shaders::sphere_fragment})),
-      sphere(
-          make_program("sphere", {shaders::frame, shaders::sphere_vertex}, {shaders::frame, shaders::sphere_fragment})),
+      sphere(make_program("sphere", {shaders::frame, "#define PLANET 0\n", shaders::sphere_vertex},
+                          {shaders::frame, "#define PLANET 0\n", shaders::sphere_fragment})),
+      planet(make_program("planet", {shaders::frame, "#define PLANET 1\n", shaders::sphere_vertex},
+                          {shaders::frame, "#define PLANET 1\n", shaders::sphere_fragment})),
       panel(make_program("panel", {shaders::frame, shaders::panel_vertex}, {shaders::frame, shaders::panel_fragment})),
       hollow(
           make_program("hollow", {shaders::frame, shaders::screen_vertex}, {shaders::frame, shaders::hollow_fragment})),
@@ -237,6 +239,10 @@ void GlRenderer::draw_surfaces(const Drawing& drawing) {
     glBindTextureUnit(0, palette_.get());
     glUseProgram(programs_.sphere.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * drawing.bodies.size()));
+    if (drawing.planets) {
+        glUseProgram(programs_.planet.get());
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * drawing.bodies.size()));
+    }
     draw_panels(drawing);
     draw_shapes(drawing.shapes);
     if (drawing.hollow) draw_hollow(*drawing.hollow);

@@ -37,6 +37,7 @@ private:
         Programs();
         ProgramHandle shadow;
         ProgramHandle sphere;
+        ProgramHandle planet;
         ProgramHandle panel;
         ProgramHandle hollow;
         ProgramHandle shape_shadow;

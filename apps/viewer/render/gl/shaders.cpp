@@ -54,6 +54,10 @@ void main() {
     point = centre + vec3(corner * radius, radius);
     gl_Position = light_projection * vec4(point, 1);
 #else
+    if ((((look >> 16) & 255u) == 3u) != (PLANET == 1)) { // the other program draws it
+        gl_Position = vec4(2, 2, 2, 1);
+        return;
+    }
     centre = (view * position).xyz;
     radius = max(radii[body], measure.y * -centre.z);
     const float away = length(centre);
@@ -92,6 +96,7 @@ layout(binding = 0) uniform sampler2D palette;
 layout(location = 0) out vec4 albedo;
 layout(location = 1) out vec4 normal;
 
+#if PLANET
 float random(vec3 cell) { return fract(sin(dot(cell, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
 
 float noise(vec3 at) {
@@ -107,6 +112,7 @@ float noise(vec3 at) {
 float terrain(vec3 at) {
     return 0.5 * noise(at * 3) + 0.26 * noise(at * 6.3) + 0.14 * noise(at * 13.1) + 0.1 * noise(at * 27.7);
 }
+#endif
 
 void main() {
     const vec3 ray = normalize(point);
@@ -122,8 +128,10 @@ void main() {
 
     const uint row = (look >> 16) & 255u;
     float place = float(look & 65535u) / 65535.0;
-    vec3 outward = (offset - ray * (inside ? -half_chord : half_chord)) / radius;
-    if (row == 3u) place = terrain(transpose(mat3(view)) * outward); // a planet
+    const vec3 outward = (offset - ray * (inside ? -half_chord : half_chord)) / radius;
+#if PLANET
+    place = terrain(transpose(mat3(view)) * outward);
+#endif
     albedo = vec4(texture(palette, vec2((place * 255 + 0.5) / 256, (float(row) + 0.5) / 4)).rgb, 1);
     normal = vec4(inside ? -outward : outward, float(look >> 24) / 255.0);
     gl_FragDepth = lens.z / -hit.z;
@@ -275,13 +283,16 @@ void main() {
     const float on_screen = clamp(measure.z / (measure.x * -here.z), 4 * lens.w, 90 * lens.w);
     const float reach = on_screen * measure.x * -here.z;
     const ivec2 pattern = ivec2(gl_FragCoord.xy) & 3;
-    const float turn = float((pattern.x * 5 + pattern.y * 7 + 3 * (pattern.x ^ pattern.y)) & 15) * (6.2831853 / 16);
-    const int taps = 14;
+    const float turn = float((4 * pattern.x + 13 * pattern.y) & 15) * (6.2831853 / 16); // each of 16 once
+    const int taps = 9;
+    // From tap to tap it turns by 2/9 of the circle: the taps lie on a spiral.
+    const mat2 onwards = mat2(0.1736482, 0.9848078, -0.9848078, 0.1736482);
+    vec2 direction = vec2(cos(turn), sin(turn));
     float sum = 0;
     for (int i = 0; i < taps; ++i) {
         const float part = (float(i) + 0.5) / float(taps);
-        const float angle = part * 7 * 6.2831853 + turn;
-        const vec3 there = seen_at(texel + ivec2(part * on_screen * vec2(cos(angle), sin(angle))));
+        const vec3 there = seen_at(texel + ivec2(part * on_screen * direction));
+        direction = onwards * direction;
         const vec3 way = there - here;
         const float length2 = dot(way, way);
         const float fall = max(reach * reach - length2, 0);
@@ -331,13 +342,18 @@ float lit(vec3 point, vec3 outward) {
     if (to_light.w == 0) return 1;
     const float slope = 1 - max(dot(outward, to_light.xyz), 0);
     const vec4 there = to_shadows * vec4(point + outward * measure.w * (1 + 2 * slope), 1);
-    const vec2 place = there.xy * 0.5 + 0.5;
-    const float texel = 1 / float(textureSize(shadows, 0).x);
-    float sum = 0;
-    for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) sum += texture(shadows, vec3(place + vec2(x, y) * texel, max(there.z + 0.0002, 0)));
-    }
-    return sum / 9;
+    // The mean over 3 x 3 texels around the place. Along each side it weighs four texels by 1 - part, 1, 1 and part,
+    // which are two samples between texels, so that four samples do for all of them.
+    const float side = float(textureSize(shadows, 0).x);
+    const vec2 at = (there.xy * 0.5 + 0.5) * side - 0.5;
+    const vec2 part = fract(at);
+    const vec2 low = (at - part - 0.5 + 1 / (2 - part)) / side;
+    const vec2 high = (at - part + 1.5 + part / (1 + part)) / side;
+    const vec2 weight = (1 + part) / 3; // of the high ones
+    const float depth = max(there.z + 0.0002, 0);
+    const float below = mix(texture(shadows, vec3(low, depth)), texture(shadows, vec3(high.x, low.y, depth)), weight.x);
+    const float above = mix(texture(shadows, vec3(low.x, high.y, depth)), texture(shadows, vec3(high, depth)), weight.x);
+    return mix(below, above, weight.y);
 }
 
 void main() {

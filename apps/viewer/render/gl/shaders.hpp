@@ -8,7 +8,9 @@ namespace carom::viewer::gl::shaders {
 
 /// Stands before each of the others: version and what a frame is drawn with.
 extern const std::string_view frame;
-extern const std::string_view sphere_vertex;   ///< with SHADOW defined: for the map of shadows
+extern const std::string_view sphere_vertex;   ///< with SHADOW defined: for the map of shadows; else of those bodies
+                                               ///< that are planets (PLANET is 1) or are none (0): few are, and what
+                                               ///< they look like takes longer than all the rest of a body
 extern const std::string_view sphere_fragment; ///< likewise
 extern const std::string_view panel_vertex;
 extern const std::string_view panel_fragment;
