@@ -114,6 +114,7 @@ private:
     };
     [[nodiscard]] std::vector<Former> formers_of(std::span<const Index> indices) const;
     [[nodiscard]] bool is_as(const Former& former, Index i) const;
+    void change_kind(Index i, Kind former);
     void move_bodies(const ConstBodyColumns& columns, const std::vector<Index>& indices,
                      std::span<const Former> formers, Overlap overlap);
     void note_places(const std::vector<Index>& indices);

@@ -420,20 +420,26 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
         !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
     if (moved || meets_otherwise) drop_contact_list(state_.bodies);
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (!has_changed(k)) continue;
-        islands_.vicinity().disturb(indices[k]);
-        Kind& kind = state_.bodies.kind[indices[k]];
-        if (rests(kind)) kind = Kind::free;
-        if (is_prescribed(kind)) kind = prescribed_kind(state_.bodies.motion[indices[k]]);
-        const Kind former = formers[k].kind;
-        if (former == Kind::fixed) release_from(state_.bodies, ids[k].slot);
-        if (former == Kind::held) state_.bodies.holds.erase(ids[k].slot);
-        if (former == Kind::kinematic) state_.bodies.kinematics.erase(ids[k].slot);
-        if (kind == Kind::kinematic) state_.bodies.kinematics.insert(ids[k].slot);
-        if (kind == former || !is_prescribed(kind)) continue;
-        drop_contacts_of(state_.bodies, ids[k].slot);
-        islands_.vicinity().forget();
+        if (has_changed(k)) change_kind(indices[k], formers[k].kind);
     }
+}
+
+/// A body that moves in another way than before, when it was of a former kind: its rest ends, and that of others on it.
+template <class Real>
+void Engine<Real>::change_kind(Index i, Kind former) {
+    Bodies<Real>& bodies = state_.bodies;
+    const std::uint32_t slot = bodies.slot[i];
+    islands_.vicinity().disturb(i);
+    Kind& kind = bodies.kind[i];
+    if (rests(kind)) kind = Kind::free;
+    if (is_prescribed(kind)) kind = prescribed_kind(bodies.motion[i]);
+    if (former == Kind::fixed) release_from(bodies, slot);
+    if (former == Kind::held) bodies.holds.erase(slot);
+    if (former == Kind::kinematic) bodies.kinematics.erase(slot);
+    if (kind == Kind::kinematic) bodies.kinematics.insert(slot);
+    if (kind == former || !is_prescribed(kind)) return;
+    drop_contacts_of(bodies, slot);
+    islands_.vicinity().forget();
 }
 
 template <class Real>

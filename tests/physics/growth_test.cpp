@@ -111,7 +111,7 @@ TEST(Growth, AnObstacleIsMetAtTheExactTime) {
         Vec3 place;
         Vec3 away; ///< unit vector, the way the ball is thrown
     };
-    const Case cases[]{
+    const std::vector<Case> cases{
         {plate, {3, 3, 2}, {0, 0, 1}},   {plate, {3, 3, -2}, {0, 0, -1}},
         {plate, {3, -2, 0}, {0, -1, 0}}, {plate, {-diagonal, -diagonal, 0}, {-1 / diagonal, -1 / diagonal, 0}},
         {tube, {0, 6, 2}, {0, 1, 0}},    {tube, {2, 0, 2}, {-1, 0, 0}},

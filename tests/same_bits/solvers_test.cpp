@@ -110,9 +110,7 @@ std::vector<carom::Obstacle> random_obstacles(Random& random, bool is_driven) {
     return {roof, frustum};
 }
 
-/// `is_driven`: with what moves as prescribed.
-World random_world(unsigned seed, bool is_driven = false) {
-    Random random(seed);
+WorldOptions random_options(Random& random, bool is_driven) {
     WorldOptions options;
     options.region = random_region(random);
     if (is_driven) drive(options.region, random);
@@ -123,7 +121,13 @@ World random_world(unsigned seed, bool is_driven = false) {
     if (random.chance(3)) options.collapse_time = 0.05;
     // The material of every third body.
     if (random.chance(4)) options.materials = {{.key = 1, .restitution = carom::Viscoelastic{0.02, 1e3}}};
-    World world(options);
+    return options;
+}
+
+/// `is_driven`: with what moves as prescribed.
+World random_world(unsigned seed, bool is_driven = false) {
+    Random random(seed);
+    World world(random_options(random, is_driven));
     const double speed = random.chance(3) ? 0.5 : 20;
     const double e = random.chance(3) ? 1 : random.within(0, 1);
     const bool grow = is_driven && random.chance(2);
