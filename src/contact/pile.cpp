@@ -18,7 +18,7 @@ namespace {
 constexpr double stiffness = 0.25;
 constexpr double damping_ratio = 10;
 
-/// Pieces a second, at least: on a level floor a ball under its own weight overlaps by g / w^2, 4.4e-5 m on Earth.
+/// Pieces a second, at least: a heap of some ten layers keeps its shape.
 constexpr double least_rate = 1 / longest_piece;
 /// Overlap, in diameters, at which a contact is to carry its load.
 constexpr double wanted_overlap = 0.01;
@@ -66,7 +66,7 @@ auto Pile<Real>::wanted_rates() const -> Rates {
 /// changes by halves, and goes back late.
 template <class Real>
 Pieces Pile<Real>::cut(double duration) {
-    constexpr double low = 0.45;
+    constexpr double low = 0.4;
     const Rates wanted = wanted_rates();
     double& rate = state_.bodies.piece_rate;
     rate = std::max(rate, least_rate);

@@ -73,7 +73,7 @@ Pressure pressure_on(const State<Real>& state, const Motion<Real>& motion, std::
 inline constexpr double deepest_in_surface = 0.5;
 
 /// s, into which the step of a pile is cut at least.
-inline constexpr double longest_piece = 1.0 / 300;
+inline constexpr double longest_piece = 1.0 / 480;
 
 /// Whether a body that moves with `velocity` (m/s) may come to lie on an obstacle. It is piled there, not held, so
 /// gravity has to press it on; and it goes straight for a piece, in which a curved surface must not bend towards it by

@@ -95,7 +95,7 @@ World make(const Heap& heap, double e, WorldOptions options) {
 }
 
 /// 1/s^2: the square of the rate at which a contact swings, a quarter of the rate of the pieces of a step. There are
-/// 300 of these a second, and two a second for each time that a body outweighs one below it.
+/// 480 of these a second, and two a second for each time that a body outweighs one below it.
 double swing_squared(const Heap& heap) {
     double lightest = heap.bodies.front().mass;
     double heaviest = lightest;
@@ -103,7 +103,7 @@ double swing_squared(const Heap& heap) {
         lightest = std::min(lightest, body.mass);
         heaviest = std::max(heaviest, body.mass);
     }
-    const double swing = 2 * std::numbers::pi * 0.25 * std::max(300.0, 2 * heaviest / lightest);
+    const double swing = 2 * std::numbers::pi * 0.25 * std::max(480.0, 2 * heaviest / lightest);
     return lightest * swing * swing;
 }
 

@@ -109,8 +109,8 @@ TEST(KinematicBody, CarriesWhatLiesOnIt) {
     world.set({{lift}}, {.velocity = {{Vec3{0, 0, 1}}}});
     run(world, 4);
     EXPECT_TRUE(world.held(ball));
-    // The jerk at the start throws it up; then it leans on the lift, by an overlap of g / w^2 with w = 471 /s.
-    EXPECT_NEAR(world.get(ball).position.z - world.get(lift).position.z, 100.5, 5e-5);
+    // The jerk at the start throws it up; then it leans on the lift, by an overlap of g / w^2 with w = 754 /s.
+    EXPECT_NEAR(world.get(ball).position.z - world.get(lift).position.z, 100.5, 2e-5);
     EXPECT_NEAR(world.get(ball).velocity.z, 1, 1e-6);
     EXPECT_NEAR(balance(world), before, 1e-9);
     const auto contacts = world.contacts();
@@ -290,8 +290,8 @@ TEST(Shaker, KeepsWhatItDoesNotThrow) {
         }
         std::printf("figure: at %.1f g a ball parts from the plate by %.3g m\n", strength, highest);
         if (strength < 1) {
-            // Pieces of 1/300 s in which the body goes straight: the plate bends by a h^2 / 8 = 1e-5 m, and the contact
-            // gives way by as much as 1.7 g / w^2 = 7.5e-5 m.
+            // Pieces of 1/480 s in which the body goes straight: the plate bends by a h^2 / 8 = 4e-6 m, and the contact
+            // gives way by as much as 1.7 g / w^2 = 3e-5 m.
             EXPECT_LE(highest, 1e-5);
             EXPECT_TRUE(world.held(ball));
         } else {
@@ -372,7 +372,7 @@ TEST(Belt, TakesAlongWhatLiesOnIt) {
     EXPECT_NEAR(world.get(ball).velocity.x, 0.25 * 0.4 * g, 0.02);
     run(world, 1, 1.0 / 64);
     EXPECT_NEAR(world.get(ball).velocity.x, 2, 1e-6);
-    EXPECT_NEAR(world.get(ball).position.z, 0.5, 5e-5); // g / w^2 = 4.4e-5 m
+    EXPECT_NEAR(world.get(ball).position.z, 0.5, 2e-5);
     EXPECT_EQ(std::get<carom::Box>(world.region()).min, Vec3{});
     // Half of the belt's work warms the ball.
     EXPECT_NEAR(world.ledger().prescribed_work, 4, 0.05);

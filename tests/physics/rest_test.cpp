@@ -359,7 +359,7 @@ void expect_bounded(const Lean& lean, double e, double mu, double mass) {
     EXPECT_LT(overlap, 0.01 + (g * options.rest_time + g * dt) * dt);
     // Each contact is a spring, which swings at a quarter of the rate of the pieces, and gives back no more than it
     // took.
-    const double swing = 2 * std::numbers::pi * 0.25 * std::max(300.0, 2 * mass);
+    const double swing = 2 * std::numbers::pi * 0.25 * std::max(480.0, 2 * mass);
     const double spring = 0.5 * std::min(mass, 1.0) * swing * swing * overlap * overlap;
     EXPECT_LE(rise, static_cast<double>(lean.lying.size() + 1) * spring + 1e-9 * start);
 }
