@@ -12,7 +12,7 @@
 ///
 /// Each has a function `transfer(archive, self)` for whoever saves and restores it: it calls `archive.settings(...)`
 /// with what it was made with, `archive(...)` with what it has gathered, and `archive.elements(list)` with lists whose
-/// length the settings give. That are numbers, Vec3, arrays, optionals and lists of them, and classes with such a
+/// length the settings give. These are numbers, Vec3, arrays, optionals and lists of them, and classes with such a
 /// function.
 #pragma once
 

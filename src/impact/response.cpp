@@ -256,6 +256,7 @@ void execute_wall(State<Real>& state, const Event& event, Occurrence& occurrence
     const double growth = growth_of(state.bodies, event.a);
     if (at_facet) support = support_by_facet(state, wall, touch, m, d, velocity_of(m) + a * duration, growth);
     if (at_facet) {
+        // It is put back onto the facet: it must not get the speed of the rounded place as well.
         take_part(state, event.a, event.time, occurrence.entry);
         put_back(state, event.a, wall, occurrence.entry);
     } else {

@@ -184,26 +184,24 @@ void Engine<Real>::set_face_motion(std::int32_t face, const FaceMotion& motion) 
 template <class Real>
 Region Engine<Real>::region() const {
     Region region = setting_.options.region;
-    auto* const box = std::get_if<Box>(&region);
-    auto* const planes = std::get_if<std::vector<Plane>>(&region);
-    for (const Bounds::Wall& wall : state_.bounds.walls()) {
-        const Vec3 way = wall.normal * -wall.offset;
-        const auto face = static_cast<std::size_t>(wall.face);
-        if (box != nullptr) (face % 2 == 0 ? box->min : box->max) += way;
-        if (planes != nullptr) planes->at(face).point += way;
-        if (box != nullptr) box->faces.at(face).motion.phase = wall.phase.value();
-        if (planes != nullptr) planes->at(face).motion.phase = wall.phase.value();
-    }
     const Vec3 shift = to_metres(setting_.first_origin - setting_.origin, setting_.resolution);
-    if (shift == Vec3{}) return region;
-    if (box != nullptr) {
+    if (auto* const shell = std::get_if<Shell>(&region)) shell->centre += shift;
+    if (auto* const planes = std::get_if<std::vector<Plane>>(&region)) {
+        for (Plane& plane : *planes) plane.point += shift;
+        for (const Bounds::Wall& wall : state_.bounds.walls()) {
+            Plane& plane = planes->at(static_cast<std::size_t>(wall.face));
+            plane.point += wall.normal * -wall.offset;
+            plane.motion.phase = wall.phase.value();
+        }
+    }
+    if (auto* const box = std::get_if<Box>(&region)) {
         box->min += shift;
         box->max += shift;
+        for (const Bounds::Wall& wall : state_.bounds.walls()) {
+            (wall.face % 2 == 0 ? box->min : box->max) += wall.normal * -wall.offset;
+            box->faces.at(static_cast<std::size_t>(wall.face)).motion.phase = wall.phase.value();
+        }
     }
-    if (planes != nullptr) {
-        for (Plane& plane : *planes) plane.point += shift;
-    }
-    if (auto* const shell = std::get_if<Shell>(&region)) shell->centre += shift;
     return region;
 }
 

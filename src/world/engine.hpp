@@ -134,7 +134,8 @@ private:
     [[nodiscard]] Contact contact_of(Index body, std::uint32_t code) const;
     void find_touching(std::vector<ContactChange>& touching) const;
     void note_contact_changes();
-    void add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const;
+    void add_held(std::uint32_t slot, const Hold& hold, std::span<const PointField> fields,
+                  std::vector<Contact>& contacts) const;
 
     // engine_step.cpp
     /// m/s^2, at least what the attractors do to any body.

@@ -409,19 +409,18 @@ void Engine<Real>::set(std::span<const BodyId> ids, const ConstBodyColumns& colu
     move_bodies(columns, indices, formers, overlap);
     write_columns(columns, indices);
     const bool meets_otherwise = !columns.restitution.empty() || !columns.friction.empty() || !columns.material.empty();
-    const auto has_changed = [&](std::size_t k) { return !is_as(formers[k], indices[k]); };
-    bool one_has_changed = false;
-    for (std::size_t k = 0; k < indices.size(); ++k) one_has_changed = one_has_changed || has_changed(k);
-    if (!one_has_changed && !meets_otherwise) return;
+    std::vector<std::size_t> changed;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        if (!is_as(formers[k], indices[k])) changed.push_back(k);
+    }
+    if (changed.empty() && !meets_otherwise) return;
     if (std::any_of(formers.begin(), formers.end(), [](const Former& f) { return is_still(f.kind); })) {
         wake_all(state_.bodies);
     }
     const bool moved =
         !columns.position.empty() || !columns.radius.empty() || !columns.mass.empty() || !columns.growth.empty();
     if (moved || meets_otherwise) drop_contact_list(state_.bodies);
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-        if (has_changed(k)) change_kind(indices[k], formers[k].kind);
-    }
+    for (const std::size_t k : changed) change_kind(indices[k], formers[k].kind);
 }
 
 /// A body that moves in another way than before, when it was of a former kind: its rest ends, and that of others on it.

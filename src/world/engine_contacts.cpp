@@ -53,11 +53,12 @@ Contact Engine<Real>::contact_of(Index body, std::uint32_t code) const {
 
 /// What the supports of a held body give: all that presses it on, but what is left to move it.
 template <class Real>
-void Engine<Real>::add_held(std::uint32_t slot, const Hold& hold, std::vector<Contact>& contacts) const {
+void Engine<Real>::add_held(std::uint32_t slot, const Hold& hold, std::span<const PointField> fields,
+                            std::vector<Contact>& contacts) const {
     const Index body = state_.bodies.slots[slot];
     const auto mass = static_cast<double>(state_.bodies.mass[body]);
     const Motion<Real>& m = state_.bodies.motion[body];
-    Vec3 push = (state_.laws.gravity + attraction(placed_fields(), state_.resolution, m.x, slot)) * mass;
+    Vec3 push = (state_.laws.gravity + attraction(fields, state_.resolution, m.x, slot)) * mass;
     for (const Support& s : hold.supports) push += s.normal * (s.bend * length_squared(velocity_of(m)) * mass);
     const std::array<double, 3> shares = share_out(push, hold.supports);
     double all = 0;
@@ -84,7 +85,8 @@ std::vector<Contact> Engine<Real>::contacts() const {
             contact.friction = force.friction;
         }
     }
-    for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, contacts);
+    const std::vector<PointField> fields = placed_fields();
+    for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, fields, contacts);
     // A body may touch an obstacle in several places.
     std::stable_sort(contacts.begin(), contacts.end(), comes_before);
     return contacts;
@@ -122,8 +124,10 @@ void Engine<Real>::note_contact_changes() {
 
 template Contact Engine<float>::contact_of(Index, std::uint32_t) const;
 template Contact Engine<double>::contact_of(Index, std::uint32_t) const;
-template void Engine<float>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
-template void Engine<double>::add_held(std::uint32_t, const Hold&, std::vector<Contact>&) const;
+template void Engine<float>::add_held(std::uint32_t, const Hold&, std::span<const PointField>,
+                                      std::vector<Contact>&) const;
+template void Engine<double>::add_held(std::uint32_t, const Hold&, std::span<const PointField>,
+                                       std::vector<Contact>&) const;
 template std::vector<Contact> Engine<float>::contacts() const;
 template std::vector<Contact> Engine<double>::contacts() const;
 template void Engine<float>::find_touching(std::vector<ContactChange>&) const;
