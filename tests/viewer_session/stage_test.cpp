@@ -283,10 +283,10 @@ TEST(Stages, TurnTheMeridiansOfWhatTurns) {
     Spectator spectator(scene::ColourBy::material);
     Stage stage(obstacles);
     const Camera camera{{0, -20, 9}, {0, 0, 0}};
-    constexpr std::size_t rims = 3 * 2 * 96;
+    constexpr std::size_t rims = std::size_t{3} * 2 * 96;
     const auto lines_at = [&](double time) { return stage.draw(*spectator.look(world, false), time, camera).lines; };
     const std::vector<Line> before = lines_at(0);
-    ASSERT_EQ(before.size(), rims + 2 * 8);
+    ASSERT_EQ(before.size(), rims + 16);
     for (int i = 0; i < 3; ++i) {
         world.step(0.5);
         spectator.watch_step(world);
