@@ -330,15 +330,47 @@ class View(CliTest):
             x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.create_string_buffer(event, 192))
         x.XCloseDisplay(display)
 
-    def test_its_window_is_closed(self):
-        process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
+    def close_until_it_ends(self, process, title):
         deadline = time.monotonic() + 60
         while process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.5)
-            self.close_like_a_window_manager("carom: two_bodies.toml")
+            self.close_like_a_window_manager(title)
         _, err = process.communicate(timeout=60)
         self.assertEqual((process.returncode, err), (0, ""))
         self.assertTrue(json.loads(self.settings.read_text())["cameras"])
+
+    def test_its_window_is_closed(self):
+        process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
+        self.close_until_it_ends(process, "carom: two_bodies.toml")
+
+    def test_a_step_that_lasts_holds_up_no_end(self):
+        # Thousands of seconds in one step of a dense gas: hundreds of millions of impacts, which last for minutes.
+        self.write("slow.toml", """
+            [run]
+            dt = 1e4
+            [region]
+            kind = "box"
+            min = [0, 0, 0]
+            max = [10, 10, 10]
+            [[bodies]]
+            generator = "random"
+            count = 1000
+            min = [0, 0, 0]
+            max = [10, 10, 10]
+            radius = 0.2
+            mass = 1
+            restitution = 1
+            velocity = { distribution = "uniform", min = -5, max = 5 }
+        """)
+        process = self.start("view", "slow.toml", env=self.environment)
+        time.sleep(3)
+        self.close_until_it_ends(process, "carom: slow.toml")
+        process = self.start("view", "slow.toml", env=self.environment)
+        time.sleep(3)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (130, ""))
 
     def test_without_display_or_graphics(self):
         scene = ROOT / "scenes/two_bodies.toml"

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -175,6 +176,40 @@ TEST(Simulations, AnswerWhileAStepIsSlow) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(250));
     simulation.wait_until_idle();
     EXPECT_EQ(simulation.status().steps, 4U);
+}
+
+TEST(Simulations, AreWatchedAndChangedWhileTheyRun) {
+    // For ThreadSanitizer: everything that the window does, while steps go on.
+    Simulation simulation(small_gas(), 0.01, scene::ColourBy::speed);
+    simulation.hear(true);
+    const BodyId first = simulation.moment()->ids->front();
+    double last = 0;
+    std::size_t rows = 0;
+    std::size_t strikes = 0;
+    simulation.run_to(2);
+    constexpr int orders = 50;
+    for (int i = 0; last < 2; ++i) {
+        std::this_thread::sleep_for(std::chrono::microseconds(i % 50));
+        const auto moment = simulation.moment();
+        const Status status = simulation.status();
+        EXPECT_EQ(status.bodies, 27U);
+        EXPECT_EQ(moment->position.size(), 27U);
+        EXPECT_GE(moment->end, last);
+        last = moment->end;
+        rows += simulation.take_rows().size();
+        strikes += simulation.take_strikes().size();
+        if (i >= orders) continue;
+        simulation.pick(i % 3 == 0 ? std::optional(first) : std::nullopt);
+        simulation.show_forces(i % 3 == 0);
+        simulation.colour_by(i % 3 == 0 ? scene::ColourBy::impact_rate : scene::ColourBy::speed);
+        simulation.change([i](World& world) { world.set_gravity({0, 0, -0.1 * i}); });
+    }
+    simulation.wait_until_idle();
+    rows += simulation.take_rows().size();
+    strikes += simulation.take_strikes().size();
+    EXPECT_EQ(rows, simulation.status().steps);
+    EXPECT_NEAR(simulation.status().time, 2, 0.011);
+    EXPECT_GT(strikes, 0U);
 }
 
 TEST(Frames, ComeAtMostSixtyTimesASecondAndCostNothingInBetween) {

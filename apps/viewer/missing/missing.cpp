@@ -23,6 +23,6 @@ bool render(const scene::Scene& /*scene*/, const RenderOptions& /*options*/,
     fail();
 }
 
-void view(const ViewOptions& /*options*/, const std::function<bool()>& /*stop*/) { fail(); }
+std::vector<std::future<void>> view(const ViewOptions& /*options*/, const std::function<bool()>& /*stop*/) { fail(); }
 
 } // namespace carom::viewer

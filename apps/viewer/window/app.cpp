@@ -55,6 +55,14 @@ void App::close_session() {
         closing_.push_back(std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); }));
 }
 
+std::vector<std::future<void>> App::close() {
+    close_session();
+    if (opening_.valid()) {
+        closing_.push_back(std::async(std::launch::async, [unseen = std::move(opening_)] { unseen.wait(); }));
+    }
+    return std::exchange(closing_, {});
+}
+
 void App::finish_opening() {
     using namespace std::chrono_literals;
     if (!opening_.valid()) return;

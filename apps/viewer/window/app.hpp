@@ -37,6 +37,9 @@ public:
 
     [[nodiscard]] Input& input() { return input_; }
     [[nodiscard]] const Panels& panels() const { return panels_; }
+    /// Nothing is shown any more. What is returned waits for what is still being computed: a step, or a scene that is
+    /// being opened.
+    [[nodiscard]] std::vector<std::future<void>> close();
     /// As they are now.
     [[nodiscard]] Settings settings(int width, int height);
     /// What there is, as numbers by name, for scripts.

@@ -175,7 +175,7 @@ void play(GLFWwindow* window, App& app, Screen& screen, const std::filesystem::p
 
 } // namespace
 
-void view(const ViewOptions& options, const std::function<bool()>& stop) {
+std::vector<std::future<void>> view(const ViewOptions& options, const std::function<bool()>& stop) {
     const auto memory = settings_file();
     auto session = std::make_unique<Session>(options.file);
     const Glfw glfw;
@@ -195,6 +195,7 @@ void view(const ViewOptions& options, const std::function<bool()>& stop) {
     int height = 0;
     glfwGetWindowSize(window.get(), &width, &height);
     if (memory) save_settings(app.settings(width, height), *memory);
+    return app.close();
 }
 
 } // namespace carom::viewer

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <string>
+#include <vector>
 
 namespace carom::viewer {
 
@@ -15,7 +17,8 @@ struct ViewOptions {
 
 /// Shows the file in a window until it is closed, or `stop` says so, or the script ends. Throws
 /// carom::Error{not_available} where there is no display or no OpenGL 4.5, SceneError or carom::Error for a file that
-/// cannot be opened, and ScriptError.
-void view(const ViewOptions& options, const std::function<bool()>& stop);
+/// cannot be opened, and ScriptError. Returns once the window is gone and remembered. What is returned is ready when
+/// the steps that were running then have ended, which may last; a process that ends need not wait for them.
+[[nodiscard]] std::vector<std::future<void>> view(const ViewOptions& options, const std::function<bool()>& stop);
 
 } // namespace carom::viewer
