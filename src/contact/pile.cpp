@@ -422,9 +422,7 @@ bool Pile<Real>::may_strike(const ContactName& name, double gap) const {
     const std::uint32_t b = group.b[name.lane()];
     if (((marks_[a] | marks_[b]) & gone) != 0) return false;
     // What moves as prescribed may do so in another way soon; but what turns is where it is.
-    const bool only_turns = name.is_wall() && state_.bounds.is_facet(name.wall()) &&
-                            growth_of(state_.bodies, state_.bodies.slots[name.slot]) == 0;
-    if (name.is_driven && !only_turns) return !std::isinf(gap);
+    if (name.is_driven && !(name.is_wall() && state_.bounds.is_facet(name.wall()))) return !std::isinf(gap);
     if (!is_closing(name)) return false;
     // The normal turns on the way.
     const double closing =

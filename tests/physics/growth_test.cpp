@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -100,6 +101,21 @@ TEST(Growth, LiftsWhatLiesOnIt) {
     EXPECT_NEAR(balance(world), before, 1e-9);
 }
 
+/// Faster than contacts bear, it is a blow: the one above gets its growth, and e times what it came with.
+TEST(Growth, StrikesWhatLiesOnIt) {
+    World world({.gravity = {0, 0, -g}, .region = carom::Box{{0, 0, 0}, {2, 2, 9}}, .sleeping = false});
+    const BodyId below = world.add({.position = {1, 1, 0.5}, .mass = 1e6, .restitution = 0.2});
+    const BodyId above = world.add({.position = {1, 1, 1.5}, .restitution = 0.2});
+    for (int k = 0; k < 120; ++k) world.step(1.0 / 60);
+    ASSERT_LT(world.energy().kinetic, 1e-9);
+    world.set({{below}}, {.growth = {{1.0}}});
+    world.step(1.0 / 480);
+    const auto is_theirs = [&](const carom::Impact& i) { return i.b.is_set(); };
+    ASSERT_GE(std::ranges::count_if(world.impacts(), is_theirs), 1);
+    EXPECT_NEAR(std::ranges::find_if(world.impacts(), is_theirs)->approach_speed, 1, 0.05);
+    EXPECT_GT(world.get(above).velocity.z, 1.1);
+}
+
 /// A growing ball above a plate's face, beside its edge and its corner, and outside and inside a tube: always 1.5 m
 /// from touching, so after 6 s of 0.25 m/s, and then the surfaces part at e times their approach.
 TEST(Growth, AnObstacleIsMetAtTheExactTime) {
@@ -128,6 +144,23 @@ TEST(Growth, AnObstacleIsMetAtTheExactTime) {
             EXPECT_LT(length(world.get(id).velocity - c.away * (0.25 * (1 + e))), 1e-11);
             EXPECT_NEAR(balance(world), before, 1e-14);
         }
+    }
+}
+
+/// A ball as small as the roundings of its place is not rounded through a plate.
+TEST(Growth, WhatShrinksToNothingDoesNotPassAPlate) {
+    const carom::Mesh plate{.vertices = {{-5, -5, 0}, {5, -5, 0}, {0, 9, 0}}, .triangles = {{0, 1, 2}}};
+    constexpr double radius = 64 * 0x1p-40;
+    for (int k = 0; k <= 400; ++k) {
+        World world({.obstacles = {plate}});
+        const double height = 0.99 + k * 0.01 / 400;
+        const BodyId id = world.add({.position = {0.1, 0.2, height + 0.01 * radius},
+                                     .velocity = {0.002 * k, -0.001 * k, -1},
+                                     .radius = radius,
+                                     .restitution = 1,
+                                     .growth = -radius});
+        world.step(1);
+        EXPECT_GT(world.get(id).position.z, 0) << k;
     }
 }
 

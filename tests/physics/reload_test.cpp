@@ -171,4 +171,23 @@ TEST(Reload, TheRegionIsThatOfNow) {
     }
 }
 
+TEST(Reload, PlanesAndShellsAreThoseOfNow) {
+    const carom::FaceMotion motion{.velocity = 0.1, .amplitude = 0.5, .angular_frequency = 3};
+    World world({.region = std::vector<carom::Plane>{{.point = {1, 2, 0}, .motion = motion}}});
+    world.step(1);
+    World again({.region = world.region()});
+    world.set_origin({100, 0, 0});
+    world.step(0.5);
+    again.step(0.5);
+    const carom::Plane here = std::get<std::vector<carom::Plane>>(world.region()).front();
+    const carom::Plane there = std::get<std::vector<carom::Plane>>(again.region()).front();
+    EXPECT_EQ(here.point.x, -99);
+    EXPECT_NEAR(here.point.z, there.point.z, 1e-11);
+    EXPECT_GT(std::abs(here.point.z), 0.01);
+
+    World shell({.region = carom::Shell{.centre = {1, 2, 3}, .radius = 5}});
+    shell.set_origin({100, 0, 0});
+    EXPECT_EQ(std::get<carom::Shell>(shell.region()).centre, (Vec3{-99, 2, 3}));
+}
+
 } // namespace

@@ -45,6 +45,28 @@ TEST_P(Overlaps, OverlapIsRefusedAtAddAndSet) {
     EXPECT_EQ(world.get(a).position.x, 3);
 }
 
+TEST_P(Overlaps, OfSeveralTheLowestSlotIsNamedWhereverItLies) {
+    World world = open_world();
+    const BodyId first = world.add({.position = {50, 0, 0}});
+    const BodyId second = world.add({.position = {0, 0, 0}});
+    world.add({.position = {1, 0, 0}});
+    world.add({.position = {0.5, 0.9, 0}});
+    // The last one comes to the first place in memory, before those in slots 1 and 2.
+    world.remove(first);
+    expect_overlap(world, 0, "slot 1", [](World& w) { w.add({.position = {0.5, 0.3, 0}}); });
+    world.remove(second);
+    expect_overlap(world, 0, "slot 2", [](World& w) { w.add({.position = {0.5, 0.3, 0}}); });
+}
+
+TEST_P(Overlaps, AStaticBodyMayOverlapUntilItIsLetLoose) {
+    World world = open_world();
+    const BodyId a = world.add({.mass = infinite_mass});
+    world.add({.position = {0.5, 0, 0}, .mass = infinite_mass});
+    expect_overlap(world, 0, "slot 1", [&](World& w) { w.set(std::array{a}, {.mass = std::array{1.0}}); });
+    world.set(std::array{a}, {.mass = std::array{1.0}}, Overlap::accept);
+    EXPECT_EQ(world.get(a).mass, 1);
+}
+
 TEST_P(Overlaps, OverlapWithinOneCallNamesWhich) {
     World world = open_world();
     world.add({.position = {50, 0, 0}});
