@@ -2,7 +2,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "progress.hpp"
-#include "scene/scene.hpp"
+#include "scene/subject.hpp"
 #include "simulation.hpp"
 #include "viewer/film/render.hpp"
 #include "viewer/sound/render_sound.hpp"
@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace carom::cli {
 
@@ -30,6 +32,7 @@ struct RenderCommandOptions {
     std::optional<std::uint64_t> supersample;
     std::optional<std::uint64_t> threads;
     bool no_sound = false;
+    bool legend = false;
 };
 
 /// Larger than any graphics card draws.
@@ -58,6 +61,7 @@ viewer::RenderOptions read_options(const RenderCommandOptions& options) {
     result.size.supersample = static_cast<int>(options.supersample.value_or(2));
     result.fps = options.fps.value_or(30);
     result.sound = !options.no_sound;
+    result.legend = options.legend;
     if (result.fps > 1000) throw UsageError(fmt::format("--fps must be at most 1000, not {}", result.fps));
     return result;
 }
@@ -81,12 +85,14 @@ int render_sound(const RenderCommandOptions& options) {
     scene::Overrides overrides;
     overrides.time = options.time;
     if (options.threads) overrides.threads = static_cast<unsigned>(*options.threads);
-    const scene::Scene scene = scene::load_scene(options.scene, overrides);
+    scene::Subject subject = scene::load_subject(options.scene, overrides);
 
     note_interrupts();
-    std::optional<Progress> progress(std::in_place, 0, schedule_of(scene.run).steps);
-    const bool finished = sound::render_sound(scene, options.file, [&](const World& world) {
-        progress->update(world.step_count(), world.time(), world.ledger().impacts + world.ledger().face_impacts);
+    std::optional<Progress> progress(std::in_place, 0, schedule_of(subject.run).steps);
+    const std::uint64_t before = subject.world.step_count();
+    const bool finished = sound::render_sound(std::move(subject), options.file, [&](const World& world) {
+        progress->update(world.step_count() - before, world.time(),
+                         world.ledger().impacts + world.ledger().face_impacts);
         return interrupted_by() == 0;
     });
     progress.reset();
@@ -97,19 +103,28 @@ int render(const RenderCommandOptions& options) {
     if (sound::is_sound(options.file)) return render_sound(options);
     viewer::RenderOptions wanted = read_options(options);
     scene::Overrides overrides;
-    if (viewer::is_film(wanted.file)) overrides.time = options.time;
+    const bool film = viewer::is_film(wanted.file);
+    if (film) overrides.time = options.time;
     if (options.threads) overrides.threads = static_cast<unsigned>(*options.threads);
-    scene::Scene scene = scene::load_scene(options.scene, overrides);
-    scene::PictureSettings& picture = scene.view.picture;
-    if (options.time) picture.moment = options.time;
+    scene::Subject subject = scene::load_subject(options.scene, overrides);
+    scene::PictureSettings& picture = subject.view.picture;
+    if (options.time && !film) picture.moment = options.time;
     if (options.time_scale) picture.time_scale = *options.time_scale;
     if (!options.colour_by.empty()) picture.colour_by = read_colour(options.colour_by);
-    wanted.threads = threads_used(scene.run.threads);
+    if (options.legend && picture.colour_by == scene::ColourBy::material) {
+        throw UsageError(
+            "--legend needs colours that are a scale: --colour-by speed, mass, impact_rate or temperature");
+    }
+    if (!film && picture.moment && *picture.moment < subject.world.time()) {
+        throw UsageError(fmt::format("--time must be at least {:.6g}, where {} begins, not {:.6g}",
+                                     subject.world.time(), options.scene, *picture.moment));
+    }
+    wanted.threads = threads_used(subject.run.threads);
 
     note_interrupts();
     std::optional<Progress> progress;
-    const bool finished = viewer::render(scene, wanted, [&](const viewer::RenderProgress& now) {
-        if (!progress) progress.emplace(0, now.total, viewer::is_film(wanted.file) ? "frame" : "step");
+    const bool finished = viewer::render(std::move(subject), wanted, [&](const viewer::RenderProgress& now) {
+        if (!progress) progress.emplace(0, now.total, film ? "frame" : "step");
         progress->update(now.done, now.time, now.impacts);
         return interrupted_by() == 0;
     });
@@ -121,8 +136,11 @@ int render(const RenderCommandOptions& options) {
 
 void add_render_command(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderCommandOptions>();
-    CLI::App* command = app.add_subcommand("render", "Write a scene as a picture, a film or sound");
-    command->add_option("SCENE", options->scene, "the scene file, in TOML")->required()->type_name("FILE");
+    CLI::App* command =
+        app.add_subcommand("render", "Write a scene, or how a run went on, as a picture, a film or sound");
+    command->add_option("SCENE", options->scene, "a scene in TOML, a checkpoint or a snapshot")
+        ->required()
+        ->type_name("FILE");
     command->add_option("-o,--output", options->file, "FILE.png for a picture, FILE.mp4 for a film, FILE.wav for sound")
         ->required()
         ->type_name("FILE");
@@ -148,6 +166,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
         ->add_option("--colour-by", options->colour_by,
                      fmt::format("{} (default: the scene's)", fmt::join(scene::colour_names, ", ")))
         ->type_name("WHAT");
+    command->add_flag("--legend", options->legend, "tell in the picture what its colours stand for");
     command->add_flag("--no-sound", options->no_sound, "a film without the sound of its impacts");
     add_threads(*command, options->threads);
     command->footer("Needs no window and no display. The same command draws the same picture again. A file appears\n"

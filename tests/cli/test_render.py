@@ -79,7 +79,30 @@ class Render(CliTest):
             self.render("gas.toml", "-o", name, "--size", "70x51", *options)
             self.assertEqual(self.size_of_png(name), (70, 51))
             self.assertNotEqual(self.read("a.png"), self.read(name), name)
-        self.assertEqual(len([name for name in self.files() if name.endswith(".png")]), 5)
+        self.render("gas.toml", "-o", "legend.png", "--size", "70x51", "--time", 0.31, "--colour-by", "speed", "--legend")
+        self.assertNotEqual(self.read("legend.png"), self.read("speed.png"))
+        self.assertEqual(len([name for name in self.files() if name.endswith(".png")]), 6)
+
+    def test_checkpoints_are_drawn_like_the_scene_that_they_are_of(self):
+        self.carom("run", "gas.toml", "--out", "out", "--time", 0.5)
+        checkpoint = "out/checkpoint.carom"
+        small = ("--size", "70x51")
+        self.render("gas.toml", "-o", "scene.png", *small, "--time", 0.5)
+        self.render(checkpoint, "-o", "state.png", *small)
+        self.assertEqual(self.read("state.png"), self.read("scene.png"))
+        self.render("gas.toml", "-o", "scene.png", *small, "--time", 0.7)
+        self.render(checkpoint, "-o", "state.png", *small, "--time", 0.7)
+        self.assertEqual(self.read("state.png"), self.read("scene.png"))
+        self.assertIn("--time must be at least 0.5, where out/checkpoint.carom begins, not 0.4",
+                      self.refused_render(checkpoint, "-o", "a.png", "--time", 0.4))
+        # A film begins at the checkpoint.
+        self.render(checkpoint, "-o", "state.mp4", *("--size", "64x48", "--fps", 10), "--time", 0.3)
+        self.assertEqual(self.probe("state.mp4"), "64,48,10/1,3")
+        self.render("gas.toml", "-o", "scene.mp4", *("--size", "64x48", "--fps", 10), "--time", 0.8)
+        self.assertNotEqual(self.frames("state.mp4")[0], self.frames("scene.mp4")[0])
+        self.write("cut.carom", "")
+        (self.folder / "cut.carom").write_bytes(self.read(checkpoint)[:100])
+        self.assertIn("cut.carom: ", self.refused_render("cut.carom", "-o", "a.png"))
 
     def test_the_smallest_picture_and_a_scene_without_bodies(self):
         self.write("empty.toml", "")
@@ -147,6 +170,7 @@ class Render(CliTest):
         self.assertIn("1 to 8", self.refused_render("gas.toml", "-o", "a.png", "--supersample", 9))
         self.assertIn("frames a second", self.refused_render("gas.toml", "-o", "a.mp4", "--fps", 0))
         self.assertIn("impact_rate", self.refused_render("gas.toml", "-o", "a.png", "--colour-by", "age"))
+        self.assertIn("--legend needs", self.refused_render("gas.toml", "-o", "a.png", "--legend"))
         self.write("bad.toml", "[camera]\nfield_of_view = 0\n")
         self.assertIn("bad.toml:2: camera.field_of_view", self.refused_render("bad.toml", "-o", "a.png"))
 

@@ -56,6 +56,14 @@ class RenderSound(CliTest):
         self.assertEqual(self.read("a.wav"), self.read("b.wav"))
         self.assertGreater(max(self.samples("a.wav")), 3000)
 
+    def test_a_checkpoint_is_heard_from_where_it_is(self):
+        self.carom("run", CRADLE, "--out", "out", "--time", 1.5)
+        self.render("out/checkpoint.carom", "-o", "late.wav", "--time", 1)
+        samples = self.samples("late.wav")
+        self.assertEqual(len(samples), 2 * 48000)
+        self.assertEqual(max(map(abs, samples[:48000])), 0)  # the first impacts are at 2 s
+        self.assertGreater(max(map(abs, samples[48000:])), 3000)
+
     def test_refusals(self):
         self.assertIn("'gas.flac'", self.refused("render", "gas.toml", "-o", "gas.flac"))
         self.assertIn("missing.toml", self.refused("render", "missing.toml", "-o", "a.wav"))

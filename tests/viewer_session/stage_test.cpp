@@ -1,7 +1,9 @@
 // What is made of a world to be drawn: places between steps, colours, regions, trails, forces, cameras.
 #include "scene/scene.hpp"
 #include "viewer/drawings.hpp"
+#include "viewer/film/image_legend.hpp"
 #include "viewer/stage/camera_path.hpp"
+#include "viewer/stage/legend.hpp"
 #include "viewer/stage/obstacle_shapes.hpp"
 #include "viewer/stage/palette.hpp"
 #include "viewer/stage/stage.hpp"
@@ -10,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <span>
 #include <utility>
 #include <vector>
@@ -131,6 +134,49 @@ TEST(Colours, ShadesOfAMaterialStayInItsHue) {
     }
 }
 
+TEST(Legends, NameQuantityUnitAndRange) {
+    using scene::ColourBy;
+    EXPECT_FALSE(legend_of(ColourBy::material, 0, 0));
+    const auto speed = legend_of(ColourBy::speed, 0, 12.345);
+    ASSERT_TRUE(speed);
+    EXPECT_EQ(speed->title, "speed in m/s");
+    EXPECT_EQ(speed->low, "0");
+    EXPECT_EQ(speed->high, "12.3 and more"); // one body in twenty is faster
+    const auto mass = legend_of(ColourBy::mass, -1, 3);
+    EXPECT_EQ(mass->low, "0.1");
+    EXPECT_EQ(mass->high, "1e+03"); // and no body has more
+    EXPECT_EQ(legend_of(ColourBy::mass, 0, 0)->high, "");
+    EXPECT_EQ(legend_of(ColourBy::impact_rate, 0, 1)->title, "impacts per second");
+    EXPECT_EQ(legend_of(ColourBy::temperature, 0, 1)->title, "temperature in J");
+}
+
+TEST(Legends, AreWrittenIntoTheCornerOfAPicture) {
+    const Legend legend{"speed in m/s", "0", "5 and more"};
+    const auto image_with = [](const Legend& shown, int width, int height) {
+        const auto bytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        Image image{width, height, std::vector<std::uint8_t>(bytes, 200)};
+        add_legend(shown, image);
+        return image;
+    };
+    const Image image = image_with(legend, 400, 300);
+    // The bar is 220 pixels wide, 18 from the left, and its middle 44 above the lower edge. It has 44 parts: half of
+    // one is a step of 7 of 255 where the scale is steepest.
+    const auto like = [](const std::uint8_t* pixel, const Colour& colour) {
+        return std::abs(pixel[0] - 255 * colour.red) < 8 && std::abs(pixel[1] - 255 * colour.green) < 8 &&
+               std::abs(pixel[2] - 255 * colour.blue) < 8;
+    };
+    for (const float place : {0.01F, 0.3F, 0.5F, 0.99F}) {
+        EXPECT_TRUE(like(image.at(18 + static_cast<int>(220 * place), 300 - 44), scale_colour(place))) << place;
+    }
+    EXPECT_EQ(*image.at(399, 0), 200);
+    EXPECT_EQ(*image.at(5, 256), 200);
+    EXPECT_NE(image_with({"mass in kg", "0", "5 and more"}, 400, 300).pixels, image.pixels);
+    EXPECT_NE(image_with({"speed in m/s", "0", "6 and more"}, 400, 300).pixels, image.pixels);
+    // Twice as large in a picture that is twice as high as usual; cut off in one that is smaller.
+    EXPECT_TRUE(like(image_with(legend, 2560, 1440).at(36 + 220, 1440 - 88), scale_colour(0.5F)));
+    EXPECT_EQ(image_with(legend, 3, 2).pixels.size(), 18U);
+}
+
 TEST(Cameras, PathsGoThroughTheirKeysSmoothly) {
     scene::CameraSpec spec;
     spec.path = {{1, {10, 0, 0}, {0, 0, 0}, 30}, {2, {0, 10, 0}, {0, 0, 1}, 50}, {4, {-10, 0, 5}, {0, 0, 0}, 40}};
@@ -157,6 +203,26 @@ TEST(Cameras, ShowEverythingWhereTheSceneLeavesItOpen) {
                 camera.field_of_view, 1e-6);
     EXPECT_EQ(up_of({}, {0, -9.81, 0}), (Vec3{0, 1, 0}));
     EXPECT_EQ(up_of({}, {}), (Vec3{0, 0, 1}));
+}
+
+TEST(Cameras, ShowTheFacesThatHoldTheBodies) {
+    const Ball bodies{{5, 5, 1}, 1};
+    const auto open = [](Box box, std::initializer_list<std::size_t> faces) {
+        for (const std::size_t face : faces) box.faces.at(face).kind = FaceKind::open;
+        return box;
+    };
+    const Box box{{0, 0, 0}, {10, 20, 40}};
+    const auto expect_ball = [&](const Region& region, const Vec3& centre, double radius) {
+        const Ball ball = ball_to_see(region, bodies, std::nullopt);
+        EXPECT_LT(length(ball.centre - centre), 1e-12);
+        EXPECT_NEAR(ball.radius, radius, 1e-12);
+    };
+    expect_ball(box, {5, 10, 20}, std::sqrt(2100) / 2);
+    expect_ball(open(box, {5}), {5, 10, 20}, std::sqrt(2100) / 2);           // the walls reach as high as the box
+    expect_ball(open(box, {0, 1, 2, 3, 5}), {5, 10, 0}, std::sqrt(500) / 2); // a floor
+    expect_ball(open(box, {0, 1, 2, 3, 4}), joined(bodies, {{5, 10, 40}, std::sqrt(500) / 2}).centre,
+                joined(bodies, {{5, 10, 40}, std::sqrt(500) / 2}).radius); // a ceiling, and the bodies far below
+    expect_ball(open(box, {0, 1, 2, 3, 4, 5}), bodies.centre, bodies.radius);
 }
 
 TEST(Stages, ShowRegionsForcesTrailsAndAttractors) {

@@ -1,4 +1,5 @@
 // The viewer without its window: simulation thread, way back, picking, look ahead, cameras, input and settings.
+#include "scene/scene_error.hpp"
 #include "scene/temporary_folder.hpp"
 #include "sound/room.hpp"
 #include "viewer/drawings.hpp"
@@ -638,8 +639,9 @@ TEST(Sessions, OpenSnapshotsAndRefuseOtherFiles) {
     session.advance(0.1, true);
     EXPECT_EQ(session.status().bodies, 27U);
     EXPECT_GT(session.time(), 0.1);
-    EXPECT_THROW(Session(folder.write("cut.carom", {reinterpret_cast<const char*>(bytes.data()), 100})), Error);
-    EXPECT_THROW(Session(folder.path() / "missing.carom"), Error);
+    EXPECT_THROW(Session(folder.write("cut.carom", {reinterpret_cast<const char*>(bytes.data()), 100})),
+                 scene::SceneError);
+    EXPECT_THROW(Session(folder.path() / "missing.carom"), scene::SceneError);
     EXPECT_THROW(Session(folder.write("bad.toml", "x = 1")), scene::SceneError);
 }
 

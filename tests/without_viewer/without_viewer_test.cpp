@@ -24,7 +24,7 @@ void expect_not_available(const Call& call) {
 }
 
 TEST(WithoutViewer, ViewAndRenderSaySo) {
-    expect_not_available([] { render({}, {}, {}); });
+    expect_not_available([] { render(scene::Subject(), {}, {}); });
     expect_not_available([] { std::ignore = view({}, {}); });
 }
 

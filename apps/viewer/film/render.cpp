@@ -2,6 +2,7 @@
 
 #include "scene/atomic_file.hpp"
 #include "viewer/film/film_writer.hpp"
+#include "viewer/film/image_legend.hpp"
 #include "viewer/film/png.hpp"
 #include "viewer/sound/sound_track.hpp"
 #include "viewer/stage/camera_path.hpp"
@@ -15,47 +16,45 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace carom::viewer {
 
 namespace {
 
-/// A scene that is run only to be seen, and heard.
-scene::Scene to_be_seen(scene::Scene scene, bool sound) {
-    scene.options.interpolation = true;
-    scene.options.record_impacts = sound || scene.view.picture.colour_by == scene::ColourBy::impact_rate;
-    return scene;
-}
-
 /// A world, what is seen and heard of it, and its drawing.
 class Shooting {
 public:
-    Shooting(const scene::Scene& scene, unsigned threads, bool sound)
-        : scene_(to_be_seen(scene, sound)), world_(scene::make_world(scene_)), spectator_(scene.view.picture.colour_by),
-          stage_(scene_.options.obstacles) {
-        world_.set_threads(threads);
-        stage_.set_trails(scene.view.picture.trails);
+    Shooting(scene::Subject subject, unsigned threads, bool sound)
+        : subject_(std::move(subject)), begin_(subject_.world.time()), spectator_(picture().colour_by),
+          stage_(subject_.world.options().obstacles) {
+        subject_.world.set_threads(threads);
+        stage_.set_trails(picture().trails);
         look();
         to_see_ = stage_.to_see(*moment_);
         if (!sound) return;
-        const sound::SoundSettings settings = heard_from(camera(world_.time()), sound::settings_for(world_));
-        track_.emplace(world_, settings, scene.view.picture.time_scale);
+        const sound::SoundSettings settings = heard_from(camera(begin_), sound::settings_for(world()));
+        track_.emplace(world(), settings, picture().time_scale);
     }
 
-    [[nodiscard]] const World& world() const { return world_; }
+    [[nodiscard]] double begin() const { return begin_; } ///< s of the world
+    [[nodiscard]] const scene::RunSettings& run() const { return subject_.run; }
+    [[nodiscard]] const scene::PictureSettings& picture() const { return subject_.view.picture; }
+    [[nodiscard]] const World& world() const { return subject_.world; }
     /// What was heard; nothing without sound.
     [[nodiscard]] const std::optional<sound::SoundTrack>& track() const { return track_; }
     /// One step towards `time` (s); false if the world is there already.
     bool step_towards(double time) {
         constexpr double rounding = 1e-9; // steps
-        if (world_.time() >= time - rounding * scene_.run.dt) return false;
-        world_.step(scene_.run.dt);
-        spectator_.watch_step(world_);
+        World& world = subject_.world;
+        if (world.time() >= time - rounding * run().dt) return false;
+        world.step(run().dt);
+        spectator_.watch_step(world);
         if (track_) hear();
         looked_ = false;
-        if (scene_.view.picture.trails > 0 && world_.time() > time - scene_.view.picture.trails) {
+        if (picture().trails > 0 && world.time() > time - picture().trails) {
             look();
-            stage_.remember_trails(*moment_, std::min(world_.time(), time));
+            stage_.remember_trails(*moment_, std::min(world.time(), time));
         }
         return true;
     }
@@ -66,25 +65,31 @@ public:
         return stage_.draw(*moment_, time, camera(time));
     }
 
+    /// What the colours of the last drawing stand for.
+    [[nodiscard]] std::optional<Legend> legend() const {
+        return legend_of(picture().colour_by, moment_->lowest, moment_->highest);
+    }
+
 private:
     [[nodiscard]] Camera camera(double time) const {
-        return camera_at(scene_.view.camera, time, to_see_, up_of(scene_.view.camera, scene_.options.gravity));
+        const scene::CameraSpec& spec = subject_.view.camera;
+        return camera_at(spec, time, to_see_, up_of(spec, world().options().gravity));
     }
     /// What the last step sounds like at the camera.
     void hear() {
-        const double seconds = world_.report().advanced;
-        const Camera now = camera(world_.time());
-        const Vec3 way = now.position - camera(world_.time() - seconds).position;
+        const double seconds = world().report().advanced;
+        const Camera now = camera(world().time());
+        const Vec3 way = now.position - camera(world().time() - seconds).position;
         track_->listen(listener_at(now, seconds > 0 ? way / seconds : Vec3{}));
-        track_->record(world_);
+        track_->record(world());
     }
     void look() {
-        moment_ = spectator_.look(world_, scene_.view.picture.forces, std::move(moment_));
+        moment_ = spectator_.look(world(), picture().forces, std::move(moment_));
         looked_ = true;
     }
 
-    scene::Scene scene_;
-    World world_;
+    scene::Subject subject_;
+    double begin_;
     Spectator spectator_;
     Stage stage_;
     std::shared_ptr<Moment> moment_;
@@ -95,34 +100,44 @@ private:
 
 std::uint64_t impacts_of(const World& world) { return world.ledger().impacts + world.ledger().face_impacts; }
 
-bool render_picture(Shooting& shooting, Renderer& renderer, const scene::Scene& scene, const RenderOptions& options,
+/// What the renderer has drawn, with all that is written on it.
+Image finished(const Shooting& shooting, Renderer& renderer, const RenderOptions& options) {
+    Image image = renderer.picture();
+    const auto legend = options.legend ? shooting.legend() : std::nullopt;
+    if (legend) add_legend(*legend, image);
+    return image;
+}
+
+bool render_picture(Shooting& shooting, Renderer& renderer, const RenderOptions& options,
                     const std::function<bool(const RenderProgress&)>& go_on) {
-    const double time = scene.view.picture.moment.value_or(scene.run.time);
+    const double time = shooting.picture().moment.value_or(shooting.begin() + shooting.run().time);
     const World& world = shooting.world();
-    const auto total = static_cast<std::uint64_t>(std::ceil(time / scene.run.dt));
+    const std::uint64_t before = world.step_count();
+    const auto total = static_cast<std::uint64_t>(std::ceil((time - shooting.begin()) / shooting.run().dt));
     while (shooting.step_towards(time)) {
-        if (!go_on({world.step_count(), total, world.time(), impacts_of(world)})) return false;
+        if (!go_on({world.step_count() - before, total, world.time(), impacts_of(world)})) return false;
     }
     renderer.draw(shooting.draw(time, true), options.size);
-    scene::write_file(options.file, to_png(renderer.picture()));
+    scene::write_file(options.file, to_png(finished(shooting, renderer, options)));
     return true;
 }
 
-bool render_film(Shooting& shooting, Renderer& renderer, const scene::Scene& scene, const RenderOptions& options,
+bool render_film(Shooting& shooting, Renderer& renderer, const RenderOptions& options,
                  const std::function<bool(const RenderProgress&)>& go_on) {
     FilmWriter film(options.file, {options.size.width, options.size.height, options.fps});
-    const double per_frame = scene.view.picture.time_scale / options.fps; // s of the world
-    const auto total = static_cast<std::uint64_t>(std::max(1.0, std::round(scene.run.time / per_frame)));
+    const double per_frame = shooting.picture().time_scale / options.fps; // s of the world
+    const auto total = static_cast<std::uint64_t>(std::max(1.0, std::round(shooting.run().time / per_frame)));
+    const auto time_of = [&](std::uint64_t frame) { return shooting.begin() + static_cast<double>(frame) * per_frame; };
     const auto run_to = [&](std::uint64_t frame) {
-        while (shooting.step_towards(static_cast<double>(frame) * per_frame)) {
+        while (shooting.step_towards(time_of(frame))) {
             if (!go_on({frame, total, shooting.world().time(), impacts_of(shooting.world())})) return false;
         }
         return true;
     };
     for (std::uint64_t frame = 0; frame < total; ++frame) {
         if (!run_to(frame)) return false;
-        renderer.draw(shooting.draw(static_cast<double>(frame) * per_frame, false), options.size);
-        film.add(renderer.picture());
+        renderer.draw(shooting.draw(time_of(frame), false), options.size);
+        film.add(finished(shooting, renderer, options));
         if (!go_on({frame + 1, total, shooting.world().time(), impacts_of(shooting.world())})) return false;
     }
     if (!shooting.track()) {
@@ -138,12 +153,12 @@ bool render_film(Shooting& shooting, Renderer& renderer, const scene::Scene& sce
 
 bool is_film(const std::filesystem::path& file) { return file.extension() == ".mp4"; }
 
-bool render(const scene::Scene& scene, const RenderOptions& options,
+bool render(scene::Subject subject, const RenderOptions& options,
             const std::function<bool(const RenderProgress&)>& go_on) {
     const std::unique_ptr<Renderer> renderer = make_offscreen_renderer();
-    Shooting shooting(scene, options.threads, options.sound && is_film(options.file));
-    if (is_film(options.file)) return render_film(shooting, *renderer, scene, options, go_on);
-    return render_picture(shooting, *renderer, scene, options, go_on);
+    Shooting shooting(std::move(subject), options.threads, options.sound && is_film(options.file));
+    if (is_film(options.file)) return render_film(shooting, *renderer, options, go_on);
+    return render_picture(shooting, *renderer, options, go_on);
 }
 
 } // namespace carom::viewer

@@ -1,8 +1,8 @@
 /// \file
-/// `carom render`: a scene as a picture or a film, without a window.
+/// `carom render`: a picture or a film, without a window.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/subject.hpp"
 #include "viewer/render/renderer.hpp"
 
 #include <cstdint>
@@ -16,6 +16,7 @@ struct RenderOptions {
     PictureSize size{1280, 720, 2}; ///< of a film even
     double fps = 30;                ///< frames a second
     bool sound = true;              ///< a film is heard as well
+    bool legend = false;            ///< tells what colours stand for, where they are a scale
     unsigned threads = 0;           ///< of the engine; 0: one for each core
 };
 
@@ -30,11 +31,11 @@ struct RenderProgress {
 /// True if the file's name says that it is to be a film.
 bool is_film(const std::filesystem::path& file);
 
-/// Runs the scene and draws it: a film of all the run, or a picture at PictureSettings::moment (the run's end if it is
-/// not set). `go_on` is asked after each step or frame. Returns false, with no file written, if it has said no. Throws
-/// carom::Error{not_available} where graphics, ffmpeg or sound are missing, {input_output} where the file cannot be
-/// written.
-bool render(const scene::Scene& scene, const RenderOptions& options,
+/// Runs the world and draws it: a film of all the run, or a picture at PictureSettings::moment (the run's end if it is
+/// not set; the world must not be later). `go_on` is asked after each step or frame. Returns false, with no file
+/// written, if it has said no. Throws carom::Error{not_available} where graphics, ffmpeg or sound are missing,
+/// {input_output} where the file cannot be written.
+bool render(scene::Subject subject, const RenderOptions& options,
             const std::function<bool(const RenderProgress&)>& go_on);
 
 } // namespace carom::viewer

@@ -18,7 +18,7 @@ namespace {
 
 bool is_film(const std::filesystem::path& file) { return file.extension() == ".mp4"; }
 
-bool render(const scene::Scene& /*scene*/, const RenderOptions& /*options*/,
+bool render(scene::Subject /*subject*/, const RenderOptions& /*options*/,
             const std::function<bool(const RenderProgress&)>& /*go_on*/) {
     fail();
 }

@@ -4,20 +4,20 @@ namespace carom::sound {
 
 bool is_sound(const std::filesystem::path& file) { return file.extension() == ".wav"; }
 
-bool render_sound(const scene::Scene& scene, const std::filesystem::path& file,
+bool render_sound(scene::Subject subject, const std::filesystem::path& file,
                   const std::function<bool(const World&)>& go_on) {
     if (const auto folder = file.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder)) {
         throw Error(ErrorCode::input_output, file.string(), "cannot be created: there is no folder " + folder.string());
     }
-    World world = scene::make_world(scene);
-    world.set_recording(true, scene.options.least_recorded_impulse);
-    world.set_threads(scene.run.threads);
+    World& world = subject.world;
+    world.set_threads(subject.run.threads);
     SoundTrack track(world, settings_for(world));
     track.listen(overview(world));
     constexpr double rounding = 1e-9; // steps
-    const double dt = scene.run.dt;
-    while (world.time() < scene.run.time - rounding * dt) {
-        const double left = scene.run.time - world.time();
+    const double dt = subject.run.dt;
+    const double end = world.time() + subject.run.time;
+    while (world.time() < end - rounding * dt) {
+        const double left = end - world.time();
         world.step(left < (1 - rounding) * dt ? left : dt);
         track.record(world);
         if (!go_on(world)) return false;

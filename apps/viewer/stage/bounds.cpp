@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,27 @@ double nearest_image(double way, double period) {
     return period > 0 ? way - period * std::nearbyint(way / period) : way;
 }
 
+/// A ball around those faces of a box that are not open; nothing if all are.
+std::optional<Ball> ball_around_faces(const Box& box) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{infinity, infinity, infinity};
+    std::array<double, 3> high{-infinity, -infinity, -infinity};
+    const std::array<double, 3> min{box.min.x, box.min.y, box.min.z};
+    const std::array<double, 3> max{box.max.x, box.max.y, box.max.z};
+    for (std::size_t face = 0; face < box.faces.size(); ++face) {
+        if (box.faces[face].kind == FaceKind::open) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool across = axis == face / 2;
+            low[axis] = std::min(low[axis], across && face % 2 == 1 ? max[axis] : min[axis]);
+            high[axis] = std::max(high[axis], across && face % 2 == 0 ? min[axis] : max[axis]);
+        }
+    }
+    if (low[0] > high[0]) return std::nullopt;
+    const Vec3 from{low[0], low[1], low[2]};
+    const Vec3 to{high[0], high[1], high[2]};
+    return Ball{(from + to) / 2, length(to - from) / 2};
+}
+
 } // namespace
 
 Ball ball_around(std::span<const Vec3> positions, std::span<const float> radii) {
@@ -65,13 +87,20 @@ Ball joined(const Ball& a, const Ball& b) {
     return {a.centre + way * ((radius - a.radius) / distance), radius};
 }
 
-Ball ball_to_see(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles) {
+Ball ball_to_light(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles) {
     if (const auto* shell = std::get_if<Shell>(&region)) return {shell->centre, shell->radius};
     const auto* box = std::get_if<Box>(&region);
     const bool closed = box != nullptr && std::none_of(box->faces.begin(), box->faces.end(),
                                                        [](const Face& face) { return face.kind == FaceKind::open; });
     if (closed) return {(box->min + box->max) / 2, length(box->max - box->min) / 2};
     return obstacles ? joined(bodies, *obstacles) : bodies;
+}
+
+Ball ball_to_see(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles) {
+    const Ball lit = ball_to_light(region, bodies, obstacles);
+    const auto* box = std::get_if<Box>(&region);
+    const auto faces = box != nullptr ? ball_around_faces(*box) : std::nullopt;
+    return faces ? joined(lit, *faces) : lit;
 }
 
 Vec3 periods_of(const Region& region) {

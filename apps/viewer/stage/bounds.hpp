@@ -21,7 +21,10 @@ Ball ball_around(std::span<const Vec3> positions, std::span<const float> radii);
 /// The smallest ball around two.
 Ball joined(const Ball& a, const Ball& b);
 
-/// What a camera should see: the region where it is closed, else the bodies and the obstacles, if there are any.
+/// What throws shadows: all of a closed region, else the bodies and the obstacles, if there are any.
+Ball ball_to_light(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles);
+
+/// What a camera should see: that, and the faces that hold the bodies.
 Ball ball_to_see(const Region& region, const Ball& bodies, const std::optional<Ball>& obstacles);
 
 /// m: the sides along which the region repeats, 0 along the others.

@@ -29,6 +29,8 @@ inline constexpr Colour outline_colour{0.75F, 0.80F, 0.88F, 0.45F};
 inline constexpr Colour periodic_colour{0.45F, 0.75F, 1.0F, 0.55F};
 inline constexpr Colour force_colour{1.0F, 0.80F, 0.35F, 0.9F};
 inline constexpr Colour trail_colour{0.95F, 0.93F, 0.85F, 0.7F};
+inline constexpr Colour text_colour{0.86F, 0.88F, 0.91F, 1};
+inline constexpr Colour legend_colour{0.07F, 0.08F, 0.10F, 0.6F}; ///< behind text
 inline constexpr Colour attractor_colour{1.0F, 0.85F, 0.45F, 0.9F};
 
 } // namespace carom::viewer

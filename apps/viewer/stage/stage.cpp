@@ -97,7 +97,7 @@ const Drawing& Stage::draw(const Moment& moment, double time, const Camera& came
     drawing_.sky = open ? space_sky_colour : sky_colour;
     drawing_.ground = open ? space_ground_colour : ground_colour;
 
-    const Ball seen = ball_to_see(region, *bodies_, obstacles_.ball());
+    const Ball seen = ball_to_light(region, *bodies_, obstacles_.ball());
     drawing_.centre = local(seen.centre);
     drawing_.extent = static_cast<float>(1.1 * seen.radius);
     const Vec3f up = unit(narrow(camera.up));

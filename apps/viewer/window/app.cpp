@@ -24,8 +24,8 @@ std::string key_of(const std::filesystem::path& file) {
 App::App(Screen& screen, Settings settings, const std::filesystem::path& scenes, bool lockstep)
     : screen_(screen), settings_(std::move(settings)), browser_(scenes), lockstep_(lockstep) {
     state_.device = screen.renderer().device();
-    // Several samples a pixel are too much for a renderer in software.
-    state_.fine = state_.device.find("llvmpipe") == std::string::npos;
+    // Several samples a pixel are too much for a renderer in software, and scripts see the same with every renderer.
+    state_.fine = !lockstep && state_.device.find("llvmpipe") == std::string::npos;
     state_.volume = settings_.volume;
     state_.muted = settings_.muted;
 }

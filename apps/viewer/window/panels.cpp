@@ -1,5 +1,6 @@
 #include "viewer/window/panels.hpp"
 
+#include "viewer/stage/legend.hpp"
 #include "viewer/stage/palette.hpp"
 
 #include <fmt/format.h>
@@ -16,17 +17,16 @@ namespace {
 
 constexpr float margin = 10;         ///< pixels, of panels from the window's edges
 constexpr float control_width = 300; ///< pixels
-constexpr float side_width = 280;    ///< pixels, of the panels at the right
-
-constexpr std::array<const char*, 5> units{"", "m/s", "kg", "1/s", "J"};
+constexpr float side_width = 310;    ///< pixels, of the panels at the right
+constexpr float value_column = 90;   ///< pixels, where values stand in their panel
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
-std::string vector_text(const Vec3& v) { return fmt::format("{:.3g}  {:.3g}  {:.3g}", v.x, v.y, v.z); }
+std::string vector_text(const Vec3& v) { return fmt::format("{:.3g} {:.3g} {:.3g}", v.x, v.y, v.z); }
 
 void row(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
-    ImGui::SameLine(90);
+    ImGui::SameLine(value_column);
     ImGui::TextUnformatted(value.c_str());
 }
 
@@ -43,14 +43,29 @@ void plot(const char* name, const std::deque<PlotRow>& rows, double PlotRow::* m
     std::vector<float> values;
     values.reserve(rows.size());
     for (const PlotRow& entry : rows) values.push_back(static_cast<float>(entry.*member));
-    const std::string overlay = rows.empty() ? name : fmt::format("{}  {:.5g} {}", name, rows.back().*member, unit);
     const auto [low, high] = values.empty() ? std::pair{0.0F, 1.0F}
                                             : std::pair{*std::min_element(values.begin(), values.end()),
                                                         *std::max_element(values.begin(), values.end())};
     const float room = std::max(0.08F * (high - low), 1e-6F * std::max(std::abs(low), std::abs(high)));
-    ImGui::PlotLines(fmt::format("##{}", name).c_str(), values.data(), static_cast<int>(values.size()), 0,
-                     overlay.c_str(), low - room, high + room, {side_width - 16, 52});
+    row(name, rows.empty() ? "" : fmt::format("{:.5g} {}", rows.back().*member, unit));
+    ImGui::PlotLines(fmt::format("##{}", name).c_str(), values.data(), static_cast<int>(values.size()), 0, nullptr,
+                     low - room, high + room, {side_width - 16, 38});
 }
+
+/// The window's picture, under all panels.
+class WindowCanvas final : public Canvas {
+public:
+    void rectangle(float left, float top, float width, float height, const Colour& colour) override {
+        list_.AddRectFilled({left, top}, {left + width, top + height}, packed(colour));
+    }
+    void text(float left, float top, const std::string& line) override {
+        list_.AddText({left, top}, packed(text_colour), line.c_str());
+    }
+    [[nodiscard]] float width_of(const std::string& line) const override { return ImGui::CalcTextSize(line.c_str()).x; }
+
+private:
+    ImDrawList& list_ = *ImGui::GetBackgroundDrawList();
+};
 
 } // namespace
 
@@ -63,6 +78,8 @@ void set_style() {
     style.WindowBorderSize = 0;
     style.Colors[ImGuiCol_WindowBg] = {0.07F, 0.08F, 0.10F, 0.82F};
     style.Colors[ImGuiCol_TitleBgActive] = {0.13F, 0.17F, 0.23F, 0.95F};
+    style.Colors[ImGuiCol_SliderGrab] = {0.22F, 0.42F, 0.68F, 1};
+    style.Colors[ImGuiCol_SliderGrabActive] = {0.28F, 0.52F, 0.84F, 1};
     style.Colors[ImGuiCol_PlotLines] = {0.95F, 0.78F, 0.40F, 1};
     style.Colors[ImGuiCol_PlotHistogram] = {0.40F, 0.62F, 0.80F, 1};
 }
@@ -121,6 +138,7 @@ void Panels::draw_control(Session& session, PanelState& state) {
     if (button("Scenes")) state.browser = !state.browser;
     ImGui::SameLine();
     if (button("Help (F1)")) state.help = !state.help;
+    control_bottom_ = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
     ImGui::End();
 }
 
@@ -187,7 +205,7 @@ void Panels::draw_world(Session& session) {
     const Vec3 up = unit(session.rig().camera().up);
     double upwards = dot(session.gravity, up);
     const double most = std::max(20.0, 2 * std::abs(upwards));
-    if (slider("gravity", upwards, -most, most, "%.2f m/s2")) {
+    if (slider("gravity", upwards, -most, most, "%.2f m/s\u00b2")) {
         session.set_gravity(session.gravity + up * (upwards - dot(session.gravity, up)));
     }
     Drag drag = session.drag;
@@ -209,8 +227,8 @@ void Panels::draw_picked(Session& session) {
     begin_panel("body", {right, margin}, {1, 0}, side_width);
     const std::string held = picked.held ? ", held" : "";
     row("number", fmt::format("{}{}", picked.id.slot, held));
-    row("position", vector_text(picked.body.position) + " m");
-    row("velocity", vector_text(picked.body.velocity) + " m/s");
+    row("place (m)", vector_text(picked.body.position));
+    row("v (m/s)", vector_text(picked.body.velocity));
     row("speed", number(length(picked.body.velocity)) + " m/s");
     row("mass", picked.body.mass == infinite_mass ? "static" : number(picked.body.mass) + " kg");
     row("radius", number(picked.body.radius) + " m");
@@ -256,42 +274,30 @@ void Panels::draw_phases(const Status& status) {
     for (const auto& [name, seconds] : phases) sum += seconds;
     for (const auto& [name, seconds] : phases) {
         const float part = sum > 0 ? static_cast<float>(seconds / sum) : 0;
-        ImGui::ProgressBar(part, {120, 11}, "");
-        ImGui::SameLine();
-        ImGui::Text("%s %.3g ms", name, 1e3 * seconds);
+        row(name, fmt::format("{:.3g} ms", 1e3 * seconds));
+        ImGui::SameLine(2 * value_column);
+        ImGui::ProgressBar(part, {-1, ImGui::GetTextLineHeight()}, "");
     }
 }
 
-/// What the colours stand for, in the lower left corner.
+/// In the lower left corner, beside the control panel where that reaches so far down.
 void Panels::draw_scale(const Session& session) {
-    if (session.colour_by() == scene::ColourBy::material) return;
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float left = margin + 4;
-    const float top = ImGui::GetIO().DisplaySize.y - margin - 14;
-    constexpr float width = 220;
-    constexpr int parts = 44;
-    for (int i = 0; i < parts; ++i) {
-        const float x = left + width * static_cast<float>(i) / parts;
-        list.AddRectFilled({x, top}, {x + width / parts + 1, top + 10},
-                           packed(scale_colour((static_cast<float>(i) + 0.5F) / parts)));
-    }
-    const auto by = static_cast<std::size_t>(session.colour_by());
-    const bool decades = session.colour_by() == scene::ColourBy::mass;
-    const auto value = [&](double end) { return number(decades ? std::pow(10, end) : end); };
-    const std::string text = fmt::format("{}: {} to {} {}", scene::colour_names[by], value(session.moment()->lowest),
-                                         value(session.moment()->highest), units[by]);
-    list.AddText({left, top - 18}, IM_COL32(220, 224, 232, 255), text.c_str());
+    const auto legend = legend_of(session.colour_by(), session.moment()->lowest, session.moment()->highest);
+    if (!legend) return;
+    const float bottom = ImGui::GetIO().DisplaySize.y - margin;
+    const bool beside = bottom - legend_height < control_bottom_ + margin;
+    WindowCanvas canvas;
+    draw_legend(*legend, beside ? control_width + 2 * margin : margin, bottom, 1, canvas);
 }
 
 void Panels::draw_browser(Browser& browser, PanelState& state, std::optional<std::filesystem::path>& chosen) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     constexpr float cell = Browser::thumbnail_width + 18.0F;
-    const float width = std::clamp(std::floor((size.x - control_width - 40) / cell), 1.0F, 4.0F) * cell + 24 +
-                        ImGui::GetStyle().ScrollbarSize;
+    const int columns = std::clamp(static_cast<int>((size.x - control_width - 40) / cell), 1, 4);
     ImGui::SetNextWindowPos({control_width + 2 * margin, margin}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSize({width, std::min(size.y - 2 * margin, 540.0F)}, ImGuiCond_Appearing);
-    ImGui::Begin("scenes", &state.browser);
-    const int columns = std::max(1, static_cast<int>(ImGui::GetContentRegionAvail().x / cell));
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, std::max(size.y - 2 * margin, margin)});
+    ImGui::SetNextWindowBgAlpha(0.96F);
+    ImGui::Begin("scenes", &state.browser, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
     int column = 0;
     for (const BrowserEntry& entry : browser.entries()) {
         const std::string name = entry.file.stem().string();

@@ -59,6 +59,7 @@ private:
     bool check(const char* label, bool& value);
     void note(const char* label);
 
+    float control_bottom_ = 0;              ///< pixels, where the panel at the left ended in this frame
     std::map<std::string, ImVec4> widgets_; ///< x, y, width, height
 };
 

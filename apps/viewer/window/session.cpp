@@ -1,8 +1,6 @@
 #include "viewer/window/session.hpp"
 
-#include "scene/atomic_file.hpp"
-#include "scene/checkpoint.hpp"
-#include "scene/scene.hpp"
+#include "scene/subject.hpp"
 #include "viewer/stage/camera_path.hpp"
 #include "viewer/stage/hearing.hpp"
 
@@ -54,46 +52,20 @@ void add_projectile(World& world, const Projectile& projectile, const Vec3& from
 } // namespace
 
 Session::Session(const std::filesystem::path& file) : file_(file) {
-    if (file.extension() == ".toml") {
-        open_scene(file);
-    } else {
-        open_snapshot(file);
-    }
+    scene::Subject subject = scene::load_subject(file);
+    const scene::PictureSettings& picture = subject.view.picture;
+    title_ = subject.title;
+    colour_by_ = picture.colour_by;
+    time_scale = picture.time_scale;
+    trails_ = picture.trails;
+    gravity = subject.world.options().gravity;
+    drag = subject.world.options().drag;
+    if (subject.world.size() > 0) restitution = subject.world.get(subject.world.ids().front()).restitution;
+    simulation_ = std::make_unique<Simulation>(std::move(subject.world), subject.run.dt, colour_by_);
+    find_home(subject.view.camera);
+    if (picture.forces) show_forces(true);
     projectile = usual_projectile(*moment_, ball_.radius);
     stage_.set_trails(trails_);
-}
-
-void Session::open_scene(const std::filesystem::path& file) {
-    const scene::Scene scene = scene::load_scene(file);
-    title_ = scene.title;
-    colour_by_ = scene.view.picture.colour_by;
-    time_scale = scene.view.picture.time_scale;
-    trails_ = scene.view.picture.trails;
-    gravity = scene.options.gravity;
-    drag = scene.options.drag;
-    if (scene.bodies.size() > 0) restitution = scene.bodies.restitution.front();
-    simulation_ = std::make_unique<Simulation>(scene);
-    find_home(scene.view.camera);
-    if (scene.view.picture.forces) show_forces(true);
-}
-
-void Session::open_snapshot(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = scene::read_file(file);
-    double dt = scene::RunSettings{}.dt;
-    World world;
-    if (scene::looks_like_checkpoint(bytes)) {
-        scene::Checkpoint checkpoint = scene::load_checkpoint(bytes);
-        dt = checkpoint.identity.dt;
-        world = std::move(checkpoint.world);
-    } else {
-        world = World::load(bytes);
-    }
-    title_ = file.filename().string();
-    gravity = world.options().gravity;
-    drag = world.options().drag;
-    world.set_recording(true);
-    simulation_ = std::make_unique<Simulation>(std::move(world), dt, colour_by_);
-    find_home({});
 }
 
 void Session::find_home(const scene::CameraSpec& spec) {

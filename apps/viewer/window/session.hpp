@@ -24,7 +24,7 @@ struct Projectile {
 
 class Session {
 public:
-    /// Opens a scene, a snapshot or a checkpoint. Throws SceneError or carom::Error.
+    /// Opens what load_subject() does. Throws what it throws.
     explicit Session(const std::filesystem::path& file);
 
     /// \name Time
@@ -96,8 +96,6 @@ public:
     [[nodiscard]] const std::deque<PlotRow>& plots() const { return rows_; }
 
 private:
-    void open_scene(const std::filesystem::path& file);
-    void open_snapshot(const std::filesystem::path& file);
     void find_home(const scene::CameraSpec& spec);
     void go_on(double seconds, bool wait);
     void show_now();

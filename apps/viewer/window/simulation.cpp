@@ -18,20 +18,11 @@ constexpr std::size_t most_strikes = 65536;
 /// s of the world that the look ahead of a picked body goes.
 constexpr double horizon = 100;
 
-scene::Scene to_be_viewed(scene::Scene scene) {
-    scene.options.interpolation = true;
-    scene.options.record_impacts = true;
-    return scene;
-}
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace
-
-Simulation::Simulation(const scene::Scene& scene)
-    : Simulation(scene::make_world(to_be_viewed(scene)), scene.run.dt, scene.view.picture.colour_by) {}
 
 Simulation::Simulation(World world, double dt, scene::ColourBy colour_by)
     : world_(std::move(world)), dt_(dt), obstacles_(world_.options().obstacles),

@@ -2,7 +2,7 @@
 /// The world of the viewer, in a thread of its own: the window never waits for a step.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/view.hpp"
 #include "viewer/stage/moment.hpp"
 #include "viewer/window/ears.hpp"
 #include "viewer/window/history.hpp"
@@ -55,9 +55,7 @@ struct Status {
 
 class Simulation {
 public:
-    /// Makes the world of a scene and starts the thread. Throws SceneError.
-    explicit Simulation(const scene::Scene& scene);
-    /// Goes on with a world.
+    /// Goes on with a world, in a thread.
     Simulation(World world, double dt, scene::ColourBy colour_by);
     ~Simulation();
     Simulation(const Simulation&) = delete;
