@@ -8,12 +8,12 @@ import pathlib
 import signal
 import struct
 import subprocess
-import sys
+import threading
 import time
 import unittest
 import zlib
 
-from carom_cli import GAS, ROOT, CliTest
+from carom_cli import GAS, ROOT, CliTest, figure
 
 WIDTH, HEIGHT = 640, 460
 HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
@@ -45,6 +45,30 @@ def pixels_of(data):
         rows.append(bytes(line))
         before = line
     return width, height, b"".join(rows)
+
+
+class Sleeper(threading.Thread):
+    """Sleeps again and again for `seconds` while others work; `overslept` says by how many s it woke late on average."""
+
+    def __init__(self, seconds):
+        super().__init__()
+        self.seconds, self.ended, self.overslept = seconds, threading.Event(), 0
+
+    def run(self):
+        late = []
+        while not self.ended.is_set():
+            start = time.monotonic()
+            time.sleep(self.seconds)
+            late.append(time.monotonic() - start - self.seconds)
+        self.overslept = sum(late) / len(late)
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        self.ended.set()
+        self.join()
 
 
 class View(CliTest):
@@ -248,6 +272,22 @@ class View(CliTest):
                        zip(pixels[3 * y * width:3 * (y + 1) * width], reference[3 * y * width:3 * (y + 1) * width])]
         self.assertLess(sum(difference > 16 for difference in differences), len(differences) / 100)
         self.assertLess(sum(differences) / len(differences), 1)
+
+    def test_frames_come_sixty_times_a_second_where_they_are_cheap(self):
+        with Sleeper(0.016) as sleeper:
+            self.view(ROOT / "scenes/two_bodies.toml", "key p\nsize 160 120\nwait 10\nlive 4 times.json\nwait 2\n")
+        times = json.loads(self.read("times.json"))
+        frames, seconds = times["frames"], times["seconds"]
+        late, asleep = times["late"] / frames, times["asleep"] / seconds
+        figure(f"window of 160x120: {frames / seconds:.1f} frames a second, {100 * asleep:.1f} % of a processor "
+               f"to wait for them; they are {1000 * late:.2f} ms late, sleepers wake {1000 * sleeper.overslept:.2f} ms late")
+        self.assertGreater(seconds, 4)
+        # Never more often than each 16 ms, and what waits for that leaves the processor to others.
+        self.assertLessEqual(frames, seconds / 0.016 + 1)
+        self.assertLess(asleep, 0.05)
+        # Beside what frames are longer than 16 ms, only the machine makes them fewer: it wakes who sleeps late, and in
+        # 4 s it may be 2 ms later on average for the window than it was for another process.
+        self.assertLess(seconds / frames, 0.016 + late + sleeper.overslept + 0.002)
 
     def test_sizes(self):
         self.view(ROOT / "scenes/two_bodies.toml", """

@@ -29,6 +29,7 @@ public:
     App(const App&) = delete;
     App& operator=(const App&) = delete;
 
+    void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
     void show(std::unique_ptr<Session> session);
     /// Opens a scene or snapshot in the background; what is wrong with it is shown in the window.
     void open(const std::filesystem::path& file);

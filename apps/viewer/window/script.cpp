@@ -8,6 +8,7 @@
 #include <carom/base.hpp>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -86,6 +87,11 @@ void Script::obey(App& app, const Window& window) {
         window.resize(static_cast<int>(number(1)), static_cast<int>(number(2)));
     } else if (command == "picture") {
         scene::write_file(word(1), to_png(window.picture()));
+    } else if (command == "live") {
+        const FrameTimes times = window.live(number(1));
+        const nlohmann::json json{
+            {"frames", times.frames}, {"seconds", times.seconds}, {"late", times.late}, {"asleep", times.asleep}};
+        scene::write_file(word(2), json.dump());
     } else if (command == "expect") {
         expect(app);
     } else {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "viewer/window/app.hpp"
+#include "viewer/window/pace.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -23,6 +24,7 @@ namespace carom::viewer {
 ///     open FILE
 ///     size WIDTH HEIGHT         of the window
 ///     picture FILE.png          what the window shows
+///     live SECONDS FILE.json    frames come at their pace, as for a person; what they took, by FrameTimes' names
 ///     expect FACT <|=|> NUMBER  App::facts()
 ///
 /// Throws carom::Error{bad_data} naming file and line, for a line that means nothing and for an `expect` that is not
@@ -35,6 +37,7 @@ public:
     struct Window {
         std::function<void(int width, int height)> resize;
         std::function<Image()> picture;
+        std::function<FrameTimes(double seconds)> live;
     };
 
     /// Does what is next before a frame. False once the script is at its end.

@@ -12,8 +12,10 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <string>
@@ -141,21 +143,41 @@ std::filesystem::path scenes_beside(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-void show(GLFWwindow* window, App& app, const std::function<bool()>& stop) {
-    auto last = std::chrono::steady_clock::now();
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+/// s that the calling thread has computed.
+double processor_seconds() {
+    std::timespec used{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+/// Frames at their pace, until the window is closed or `stop` says so.
+FrameTimes show(GLFWwindow* window, App& app, const std::function<bool()>& stop) {
+    FrameTimes times;
+    const auto start = std::chrono::steady_clock::now();
+    auto last = start;
     while (glfwWindowShouldClose(window) == GLFW_FALSE && !stop()) {
         const auto now = std::chrono::steady_clock::now();
         glfwPollEvents();
         int width = 0;
         int height = 0;
         glfwGetFramebufferSize(window, &width, &height);
-        app.frame(std::chrono::duration<double>(now - last).count(), width, height);
+        app.frame(seconds_between(last, now), width, height);
         last = now;
+        ++times.frames;
+        times.late += std::max(seconds_between(now + frame_time, std::chrono::steady_clock::now()), 0.0);
+        const double awake = processor_seconds();
         pace(now);
+        times.asleep += processor_seconds() - awake;
     }
+    times.seconds = seconds_between(start, std::chrono::steady_clock::now());
+    return times;
 }
 
-/// Each frame is a sixtieth of a second, however long it takes.
+/// Each frame is a sixtieth of a second, however long it takes, unless the script wants it otherwise.
 void play(GLFWwindow* window, App& app, Screen& screen, const std::filesystem::path& file,
           const std::function<bool()>& stop) {
     Script script(file);
@@ -164,8 +186,15 @@ void play(GLFWwindow* window, App& app, Screen& screen, const std::filesystem::p
         glfwGetFramebufferSize(window, &pixels.first, &pixels.second);
         return pixels;
     };
+    const auto live = [&](double seconds) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+        app.set_lockstep(false);
+        const FrameTimes times = show(window, app, [&] { return stop() || std::chrono::steady_clock::now() >= end; });
+        app.set_lockstep(true);
+        return times;
+    };
     const Script::Window hands{[window](int width, int height) { glfwSetWindowSize(window, width, height); },
-                               [&] { return screen.shown(size().first, size().second); }};
+                               [&] { return screen.shown(size().first, size().second); }, live};
     while (glfwWindowShouldClose(window) == GLFW_FALSE && !stop()) {
         glfwPollEvents();
         if (!script.go_on(app, hands)) return;

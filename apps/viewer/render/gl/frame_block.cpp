@@ -63,7 +63,7 @@ FrameBlock frame_block(const Drawing& drawing, const Targets& targets) {
     block.lens = {half_height * width / height, half_height, near, supersample};
     block.haze = {std::max(away - drawing.extent, 0.0F), haze_through_scene / (2 * drawing.extent), most_haze, 0};
     block.measure = {sample, drawing.smallest * supersample * sample, drawing.occlusion_distance,
-                     2 * drawing.extent / static_cast<float>(shadow_side)};
+                     2 * drawing.extent / static_cast<float>(targets.shadow_side)};
     return block;
 }
 

@@ -10,8 +10,6 @@
 
 namespace carom::viewer::gl {
 
-inline constexpr int shadow_side = 2048; ///< texels
-
 /// As std140 lays it out; shaders.cpp says what the members are.
 struct FrameBlock {
     Matrix4 view;

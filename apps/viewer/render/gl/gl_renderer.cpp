@@ -57,18 +57,6 @@ void turn_over(std::vector<T>& rows, int height) {
     }
 }
 
-TextureHandle make_shadow_map() {
-    TextureHandle map = make_texture(GL_DEPTH_COMPONENT32F, shadow_side, shadow_side, GL_LINEAR);
-    glTextureParameteri(map.get(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glTextureParameteri(map.get(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    // Beyond its edges all is in the light.
-    constexpr std::array<float, 4> farthest{};
-    glTextureParameteri(map.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    glTextureParameteri(map.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    glTextureParameterfv(map.get(), GL_TEXTURE_BORDER_COLOR, farthest.data());
-    return map;
-}
-
 } // namespace
 
 Image read_pixels(GLuint framebuffer, int width, int height) {
@@ -117,8 +105,7 @@ void GlRenderer::Buffer::update(const void* data, std::size_t bytes) {
 
 GlRenderer::GlRenderer(std::unique_ptr<Context> context)
     : context_((check_version(), std::move(context))), no_vertices_(make_vertex_array()),
-      palette_(make_texture(GL_SRGB8_ALPHA8, palette_columns, palette_rows, GL_LINEAR)), shadows_(make_shadow_map()),
-      shadowing_(make_target({}, shadows_.get())) {
+      palette_(make_texture(GL_SRGB8_ALPHA8, palette_columns, palette_rows, GL_LINEAR)) {
     // With the near edge at depth 1 and 0 at infinity, floating point is as exact far away as it is near.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
@@ -206,8 +193,8 @@ void GlRenderer::draw(const Drawing& drawing, const PictureSize& size) {
 }
 
 void GlRenderer::draw_shadows(const Drawing& drawing) {
-    glBindFramebuffer(GL_FRAMEBUFFER, shadowing_.get());
-    glViewport(0, 0, shadow_side, shadow_side);
+    glBindFramebuffer(GL_FRAMEBUFFER, targets_->shadowing.get());
+    glViewport(0, 0, targets_->shadow_side, targets_->shadow_side);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);
     glDepthFunc(GL_GREATER);
@@ -333,7 +320,7 @@ void GlRenderer::light_surfaces() {
     glBindTextureUnit(1, targets_->normal.get());
     glBindTextureUnit(2, targets_->depth.get());
     glBindTextureUnit(3, targets_->occlusion.get());
-    glBindTextureUnit(4, shadows_.get());
+    glBindTextureUnit(4, targets_->shadows.get());
     glDepthMask(GL_FALSE); // it reads the depths that hide lines later
     draw_screen(programs_.light, targets_->lighting, targets_->width, targets_->height);
 }

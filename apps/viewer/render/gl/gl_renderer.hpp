@@ -82,8 +82,6 @@ private:
     std::optional<std::uint64_t> palette_version_;
     std::optional<std::uint64_t> shapes_version_;
     TextureHandle palette_;
-    TextureHandle shadows_;
-    FramebufferHandle shadowing_;
     std::unique_ptr<Targets> targets_;
     float near_ = 0; ///< of the last picture
     std::uint64_t errors_ = 0;

@@ -17,9 +17,11 @@ struct Targets {
     explicit Targets(const PictureSize& size);
 
     PictureSize size;
-    int width;  ///< samples
-    int height; ///< samples
+    int width;       ///< samples
+    int height;      ///< samples
+    int shadow_side; ///< texels
 
+    TextureHandle shadows; ///< a square map of depths as seen from the light
     TextureHandle albedo;
     TextureHandle normal;
     TextureHandle depth;
@@ -28,6 +30,7 @@ struct Targets {
     TextureHandle light; ///< linear
     TextureHandle shown; ///< by pixels, as a screen takes it
 
+    FramebufferHandle shadowing;
     FramebufferHandle surfaces;
     FramebufferHandle occluding;
     FramebufferHandle blurring;
