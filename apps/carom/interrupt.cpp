@@ -8,17 +8,22 @@ namespace {
 
 volatile std::sig_atomic_t noted_signal = 0;
 
-void note(int number) { noted_signal = number; }
-
-} // namespace
-
-void note_interrupts() {
+void handle(void (*handler)(int)) {
     struct sigaction action{};
-    action.sa_handler = note;
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }
+
+void note(int number) {
+    noted_signal = number;
+    handle(SIG_DFL);
+}
+
+} // namespace
+
+void note_interrupts() { handle(note); }
 
 int interrupted_by() noexcept { return noted_signal; }
 

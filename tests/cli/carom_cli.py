@@ -3,8 +3,11 @@
 import json
 import os
 import pathlib
+import re
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -54,6 +57,28 @@ restitution = 0.5
 """
 
 
+def dense_gas(dt):
+    """1000 spheres that meet a few ten thousand times a second of the world: a step of 100 s takes seconds."""
+    return f"""
+[run]
+dt = {dt}
+time = 1e9
+[region]
+kind = "box"
+min = [0, 0, 0]
+max = [10, 10, 10]
+[[bodies]]
+generator = "random"
+count = 1000
+min = [0, 0, 0]
+max = [10, 10, 10]
+radius = 0.2
+mass = 1
+restitution = 1
+velocity = {{ distribution = "uniform", min = -5, max = 5 }}
+"""
+
+
 def figure(text):
     """Prints what was measured; ./dev test shows these lines at its end."""
     print(f"figure: {text}")
@@ -76,7 +101,26 @@ class CliTest(unittest.TestCase):
         options.setdefault("stdout", subprocess.PIPE)
         options.setdefault("stderr", subprocess.PIPE)
         command = [PROGRAM, *map(str, arguments)]
-        return subprocess.Popen(command, cwd=self.folder, text=True, **options)
+        process = subprocess.Popen(command, cwd=self.folder, text=True, **options)
+        self.addCleanup(self.end, process)
+        return process
+
+    @staticmethod
+    def end(process):
+        """Leaves nothing behind of a test that failed."""
+        if process.poll() is None:
+            process.kill()
+            process.communicate()
+
+    def wait_until_it_notes_interrupts(self, process):
+        """Returns once the program catches Ctrl-C: from then on it steps."""
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline:
+            status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="ascii")
+            if int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16) >> (signal.SIGINT - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail("it never did")
 
     def carom(self, *arguments, expect=0, **options):
         """Runs the program to its end, and checks its exit code. Returns what it wrote to stdout and stderr."""

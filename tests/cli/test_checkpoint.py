@@ -9,7 +9,7 @@ import signal
 import time
 import unittest
 
-from carom_cli import GAS, RAIN, CliTest, figure
+from carom_cli import GAS, RAIN, CliTest, dense_gas, figure
 
 # Long enough that no test waits for its end.
 ENDLESS = GAS.replace("time = 1", "time = 1e6") + "[output]\nrecord_impacts = true\ntimeline_every = 0.1\n"
@@ -97,6 +97,31 @@ class Checkpoint(CliTest):
 
     def test_termination(self):
         self.interrupt(signal.SIGTERM, 143)
+
+    def test_ctrl_c_in_a_long_step_waits_for_its_end(self):
+        self.write("slow.toml", dense_gas(100))
+        process = self.start("run", "slow.toml", "--out", "out", "--json")
+        self.wait_until_it_notes_interrupts(process)
+        time.sleep(0.3)
+        self.assertEqual([name for name in self.files("out") if not name.startswith(".")], [])
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertEqual(json.loads(stdout)["steps"], 1)
+        self.assertEqual(self.files("out"), ["checkpoint.carom", "energy.svg", "summary.json", "timeline.csv"])
+
+    def test_a_second_ctrl_c_ends_it_at_once(self):
+        self.write("slow.toml", dense_gas(1e4))  # a step of minutes
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start("run", "slow.toml", "--out", "out")
+            self.wait_until_it_notes_interrupts(process)
+            process.send_signal(signal.SIGINT)
+            time.sleep(1)
+            self.assertIsNone(process.poll())
+            process.send_signal(number)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, -number)
+            self.assertEqual([name for name in self.files("out") if not name.startswith(".")], [])
 
     def time_of(self, checkpoint):
         """The world's time in a checkpoint; fails where it is not sound."""

@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from carom_cli import GAS, ROOT, CliTest, figure
+from carom_cli import GAS, ROOT, CliTest, dense_gas, figure
 
 HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
 SILENT = () if HAS_SOUND else ("--no-sound",)
@@ -220,19 +220,51 @@ class Render(CliTest):
         missing = dict(os.environ, LD_LIBRARY_PATH=str(self.folder))
         self.assertIn("libEGL.so.1 is missing", self.refused_render(*picture, expect=1, env=missing))
 
+    def wait_until_a_film_is_begun(self):
+        deadline = time.monotonic() + 60
+        while not (self.folder / "a.mp4.part").exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        time.sleep(0.3)
+
     def test_interrupts(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             process = self.start("render", ROOT / "scenes/gas.toml", "-o", "a.mp4", "--size", "64x48", "--time", 1000,
                                  *SILENT)
-            deadline = time.monotonic() + 60
-            while not (self.folder / "a.mp4.part").exists() and time.monotonic() < deadline:
-                time.sleep(0.02)
-            time.sleep(0.3)
+            self.wait_until_a_film_is_begun()
             process.send_signal(number)
             _, err = process.communicate(timeout=60)
             self.assertEqual(process.returncode, code, err)
             self.assertIn("nothing was written", err)
             self.assertEqual(self.files(), ["gas.toml", "spin.toml"])
+
+    def start_with_a_long_step(self, seconds, name):
+        """A picture or a film in its first step, which takes so many seconds of the world."""
+        self.write("slow.toml", dense_gas(seconds))
+        process = self.start("render", "slow.toml", "-o", name, "--size", "64x48", "--time", 1e9, "--no-sound")
+        self.wait_until_it_notes_interrupts(process)
+        if name.endswith(".mp4"):
+            self.wait_until_a_film_is_begun()
+        return process
+
+    def test_an_interrupt_waits_for_the_end_of_the_step(self):
+        for name in ("a.png", "a.mp4"):
+            process = self.start_with_a_long_step(100, name)
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=120)
+            self.assertEqual(process.returncode, 130, err)
+            self.assertIn("nothing was written", err)
+            self.assertEqual(self.files(), ["gas.toml", "slow.toml", "spin.toml"])
+
+    def test_a_second_interrupt_ends_it_at_once(self):
+        for name in ("a.png", "a.mp4"):
+            process = self.start_with_a_long_step(1e4, name)  # a step of minutes
+            process.send_signal(signal.SIGINT)
+            time.sleep(1)
+            self.assertIsNone(process.poll())
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, -signal.SIGINT)
+            self.assertNotIn(name, self.files())
 
 
 if __name__ == "__main__":

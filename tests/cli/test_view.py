@@ -13,7 +13,7 @@ import time
 import unittest
 import zlib
 
-from carom_cli import GAS, ROOT, CliTest, figure
+from carom_cli import GAS, ROOT, CliTest, dense_gas, figure
 
 WIDTH, HEIGHT = 640, 460
 HAS_SOUND = os.environ.get("CAROM_HAS_SOUND", "ON") == "ON"
@@ -385,23 +385,7 @@ class View(CliTest):
 
     def test_a_step_that_lasts_holds_up_no_end(self):
         # Thousands of seconds in one step of a dense gas: hundreds of millions of impacts, which last for minutes.
-        self.write("slow.toml", """
-            [run]
-            dt = 1e4
-            [region]
-            kind = "box"
-            min = [0, 0, 0]
-            max = [10, 10, 10]
-            [[bodies]]
-            generator = "random"
-            count = 1000
-            min = [0, 0, 0]
-            max = [10, 10, 10]
-            radius = 0.2
-            mass = 1
-            restitution = 1
-            velocity = { distribution = "uniform", min = -5, max = 5 }
-        """)
+        self.write("slow.toml", dense_gas(1e4))
         process = self.start("view", "slow.toml", env=self.environment)
         time.sleep(3)
         self.close_until_it_ends(process, "carom: slow.toml")
