@@ -134,6 +134,20 @@ class View(CliTest):
             key c
             wait 1
             expect colour = 1
+            key c
+            wait 1
+            key c
+            wait 1
+            key c
+            wait 1
+            expect colour = 4
+            key c
+            wait 1
+            expect colour = 0
+            press forces 0.2
+            wait 1
+            key right
+            wait 1
             press gravity 0.5
             wait 2
             expect gravity < 2
@@ -202,6 +216,7 @@ class View(CliTest):
             press Scenes
             wait 20
             expect browser = 1
+            expect thumbnails = 2
             press two
             wait 3
             expect bodies = 3
@@ -289,6 +304,13 @@ class View(CliTest):
         # 4 s it may be 2 ms later on average for the window than it was for another process.
         self.assertLess(seconds / frames, 0.016 + late + sleeper.overslept + 0.002)
 
+    def test_frames_come_while_a_step_is_slow(self):
+        self.write("slow.toml", dense_gas(40) + "[picture]\ntime_scale = 1000\n")
+        self.view("slow.toml", "key p\nsize 160 120\nwait 3\nlive 5 times.json\n")
+        times = json.loads(self.read("times.json"))
+        self.assertGreater(times["frames"], 4 * times["steps"])
+        self.assertGreater(times["lag"], 1000)
+
     def test_sizes(self):
         self.view(ROOT / "scenes/two_bodies.toml", """
             wait 2
@@ -341,7 +363,8 @@ class View(CliTest):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             self.settings.write_text(json.dumps({"width": 300, "height": 200, "cameras": {}}))
             process = self.start("view", ROOT / "scenes/two_bodies.toml", env=self.environment)
-            time.sleep(2)
+            self.wait_until_it_notes_interrupts(process)
+            time.sleep(1)
             self.assertIsNone(process.poll())
             process.send_signal(number)
             _, err = process.communicate(timeout=60)
@@ -390,7 +413,8 @@ class View(CliTest):
         time.sleep(3)
         self.close_until_it_ends(process, "carom: slow.toml")
         process = self.start("view", "slow.toml", env=self.environment)
-        time.sleep(3)
+        self.wait_until_it_notes_interrupts(process)
+        time.sleep(2)
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=60)

@@ -76,7 +76,8 @@ TEST_F(Pictures, CornersAreDarker) {
     EXPECT_GT(mean_loss(40), 0.15);
     EXPECT_GT(mean_loss(58), 0.15);
     EXPECT_LT(loss(40, 35), 0.03); // the top of a sphere
-    EXPECT_EQ(loss(50, 90), 0);    // the floor away from them
+    // The floor away from them, but for a rounding of each colour.
+    EXPECT_NEAR(brightness(with, 50, 90), brightness(without, 50, 90), 3);
 }
 
 TEST_F(Pictures, WhatIsFarFadesIntoTheBackground) {

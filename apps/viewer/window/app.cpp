@@ -230,6 +230,7 @@ std::map<std::string, double> App::facts() {
                                         {"problem", state_.problem.empty() ? 0 : 1},
                                         {"help", state_.help ? 1 : 0},
                                         {"browser", state_.browser ? 1 : 0},
+                                        {"thumbnails", static_cast<double>(browser_.pictures())},
                                         {"audible", ears_.audible() ? 1 : 0},
                                         {"silence", state_.silence.empty() ? 0 : 1},
                                         {"strikes_heard", static_cast<double>(ears_.heard())},
@@ -240,6 +241,7 @@ std::map<std::string, double> App::facts() {
     const Status status = session_->status();
     const Camera& camera = session_->rig().camera();
     facts.insert({{"time", session_->time()},
+                  {"lag", session_->lag()},
                   {"steps", static_cast<double>(status.steps)},
                   {"bodies", static_cast<double>(status.bodies)},
                   {"impacts", static_cast<double>(status.ledger.impacts + status.ledger.face_impacts)},

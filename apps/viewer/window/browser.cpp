@@ -45,6 +45,11 @@ Browser::Browser(const std::filesystem::path& folder) {
               [](const BrowserEntry& a, const BrowserEntry& b) { return a.file < b.file; });
 }
 
+std::size_t Browser::pictures() const {
+    return static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(),
+                                                  [](const BrowserEntry& entry) { return entry.texture != nullptr; }));
+}
+
 void Browser::start_reading() {
     if (next_ < entries_.size()) reading_ = std::async(std::launch::async, scene_at_start, entries_[next_].file);
 }

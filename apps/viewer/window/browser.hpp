@@ -37,6 +37,8 @@ public:
     explicit Browser(const std::filesystem::path& folder);
 
     [[nodiscard]] const std::vector<BrowserEntry>& entries() const { return entries_; }
+    /// Scenes that have a picture so far.
+    [[nodiscard]] std::size_t pictures() const;
     /// A little more of the work: to be called once a frame while the browser is open.
     void go_on(Screen& screen);
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr float margin = 10;         ///< pixels, of panels from the window's edges
 constexpr float control_width = 300; ///< pixels
-constexpr float side_width = 310;    ///< pixels, of the panels at the right
-constexpr float value_column = 90;   ///< pixels, where values stand in their panel
+constexpr float side_width = 300;    ///< pixels, of the panels at the right
+constexpr float value_column = 80;   ///< pixels, where values stand in their panel
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 

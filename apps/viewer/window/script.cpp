@@ -89,8 +89,9 @@ void Script::obey(App& app, const Window& window) {
         scene::write_file(word(1), to_png(window.picture()));
     } else if (command == "live") {
         const FrameTimes times = window.live(number(1));
-        const nlohmann::json json{
-            {"frames", times.frames}, {"seconds", times.seconds}, {"late", times.late}, {"asleep", times.asleep}};
+        nlohmann::json json(app.facts());
+        json.update(
+            {{"frames", times.frames}, {"seconds", times.seconds}, {"late", times.late}, {"asleep", times.asleep}});
         scene::write_file(word(2), json.dump());
     } else if (command == "expect") {
         expect(app);

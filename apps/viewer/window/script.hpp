@@ -24,7 +24,7 @@ namespace carom::viewer {
 ///     open FILE
 ///     size WIDTH HEIGHT         of the window
 ///     picture FILE.png          what the window shows
-///     live SECONDS FILE.json    frames come at their pace, as for a person; what they took, by FrameTimes' names
+///     live SECONDS FILE.json    frames come at their pace, as for a person; then all facts and FrameTimes
 ///     expect FACT <|=|> NUMBER  App::facts()
 ///
 /// Throws carom::Error{bad_data} naming file and line, for a line that means nothing and for an `expect` that is not
