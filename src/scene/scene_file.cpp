@@ -176,6 +176,7 @@ void read_output(TableReader table, Scene& scene) {
     OutputSettings& outputs = scene.outputs;
     table.read("timeline_every", outputs.timeline_every, not_negative);
     table.read("checkpoint_every", outputs.checkpoint_every, not_negative);
+    table.read("bodies_every", outputs.bodies_every, positive);
     table.read("energy_plot", outputs.energy_plot);
     table.read("record_impacts", outputs.record_impacts);
     table.read("least_recorded_impulse", scene.options.least_recorded_impulse, not_negative);

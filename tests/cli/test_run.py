@@ -156,6 +156,60 @@ every = 0.1
             self.assertEqual(bool(row["b"]), not row["face"])
             self.assertGreater(float(row["approach_speed"]), 0)
 
+    def bodies(self, *file):
+        with open(self.folder.joinpath(*file), newline="", encoding="ascii") as table:
+            return list(csv.DictReader(table))
+
+    def test_bodies_where_the_scene_asks_for_them(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.25\n")
+        self.carom("run", "tables.toml", "--out", "out", "--time", 1.1)
+        self.assertEqual(self.files("out", "bodies"), [f"{number:06}.csv" for number in range(5)])
+        for number in range(5):
+            rows = self.bodies("out", "bodies", f"{number:06}.csv")
+            self.assertEqual(list(rows[0]), ["time", "id", "x", "y", "z", "vx", "vy", "vz", "mass", "radius",
+                                             "restitution", "friction", "growth"])
+            self.assertEqual([int(row["id"]) for row in rows], list(range(40)))
+            for row in rows:
+                self.assertAlmostEqual(float(row["time"]), 0.25 * number, delta=1e-12)
+                self.assertEqual((row["mass"], row["radius"], row["restitution"]), ("2", "0.2", "0.5"))
+        # The same numbers as the run had: the kinetic energy of the timeline.
+        _, timeline = self.timeline("out")
+        kinetic = sum(float(row["mass"]) * sum(float(row[v]) ** 2 for v in ("vx", "vy", "vz")) / 2 for row in rows)
+        self.assertAlmostEqual(kinetic, timeline[100]["kinetic"], delta=1e-12 * kinetic)
+
+        self.carom("run", "tables.toml", "--out", "out", "--time", 0.3)
+        self.assertEqual(self.files("out", "bodies"), ["000000.csv", "000001.csv"], "those of a longer run were left")
+        self.carom("run", "rain.toml", "--out", "out", "--time", 0.1)
+        self.assertNotIn("bodies", self.files("out"))
+
+    def test_a_table_of_bodies_is_a_start(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.25\n")
+        self.carom("run", "tables.toml", "--out", "out", "--time", 0.25)
+        generator = RAIN.partition("generator")[2]
+        self.write("again.toml", RAIN.replace("generator" + generator, 'generator = "csv"\n'
+                                              'file = "out/bodies/000001.csv"\n[output]\nbodies_every = 0.25\n'))
+        self.carom("run", "again.toml", "--out", "again", "--time", 0.25)
+        then, now = self.bodies("out", "bodies", "000001.csv"), self.bodies("again", "bodies", "000000.csv")
+        for row in [*then, *now]:
+            del row["time"]
+        self.assertEqual(then, now)
+
+    def test_tables_of_bodies_of_a_resumed_run(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.05\n")
+        self.carom("run", "tables.toml", "--out", "whole", "--time", 1)
+        self.carom("run", "tables.toml", "--out", "parts", "--steps", 33)
+        resume = ("--resume", "parts/checkpoint.carom")
+        message = self.refused("run", "tables.toml", "--out", "elsewhere", "--time", 1, *resume)
+        self.assertIn("elsewhere/bodies/000000.csv, which is missing", message)
+        self.carom("run", "tables.toml", "--out", "parts", "--time", 1, *resume)
+        self.assertEqual(self.files("whole", "bodies"), [f"{number:06}.csv" for number in range(21)])
+        self.assertEqual(self.files("parts", "bodies"), self.files("whole", "bodies"))
+        for name in self.files("whole", "bodies"):
+            self.assertEqual(self.read("parts", "bodies", name), self.read("whole", "bodies", name), name)
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.1\n")
+        self.assertIn("its run wrote other outputs",
+                      self.refused("run", "tables.toml", "--out", "parts", "--time", 2, *resume))
+
     def test_overlap_search_can_be_left_out(self):
         self.write("quick.toml", GAS + "[output]\ncheck_overlap = false\n")
         summary = self.json("run", "quick.toml")

@@ -165,6 +165,14 @@ timeline_every = -1
 )",
      "s.toml:2: output.timeline_every: must be >= 0", ""},
     {R"([output]
+bodies_every = 0
+)",
+     "s.toml:2: output.bodies_every: must be > 0 and finite, got 0", ""},
+    {R"([output]
+bodies_every = inf
+)",
+     "s.toml:2: output.bodies_every: must be > 0 and finite, got inf", ""},
+    {R"([output]
 plot = true
 )",
      "s.toml:2: output.plot: unknown key", "energy_plot"},
