@@ -102,7 +102,7 @@ private:
     std::array<BlockAverage, 3> momentum_;
 };
 
-/// Collision rate, pressure and what the walls bear, from the impacts of every step.
+/// Collision rate, pressure and what the walls bear, from the impacts and contacts of every step.
 class ImpactStatistics {
 public:
     /// Reads the radii of the world's bodies: make a new one when bodies are added or their radii change. The world
@@ -123,8 +123,8 @@ public:
     [[nodiscard]] Estimate pressure() const;
     /// Whether a pressure can be said: the world is bounded by a box.
     [[nodiscard]] bool has_volume() const noexcept { return volume_.has_value(); }
-    /// N, the mean force on a face of the region or an obstacle by the momentum that bodies leave there in impacts
-    /// (`face` as in Impact::face).
+    /// N along the normal, the mean force on a face of the region or an obstacle (`face` as in Impact::face): by the
+    /// momentum that bodies leave there in impacts, and by those that rest on it, with the force at each step's end.
     [[nodiscard]] Estimate face_force(std::size_t face) const;
     /// Faces of the region and obstacles.
     [[nodiscard]] std::size_t faces() const noexcept { return face_force_.size(); }

@@ -142,6 +142,9 @@ public:
     /// face or a static body is the sum of `force * normal + friction` over its contacts. Takes O(contacts log
     /// contacts).
     [[nodiscard]] std::vector<Contact> contacts() const;
+    /// N along the normal, with which contacts() press on each face of the region and obstacle, numbered as in
+    /// Impact::face. Takes O(contacts).
+    [[nodiscard]] std::vector<double> face_forces() const;
     /// Contacts that began or ended in the last step, in the order of (a, then b, then faces); valid until the next
     /// step. What the caller has changed or removed before it ends without a word. Needs WorldOptions::record_contacts.
     [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept;

@@ -77,6 +77,7 @@ public:
 
     // engine_contacts.cpp
     [[nodiscard]] std::vector<Contact> contacts() const;
+    [[nodiscard]] std::vector<double> face_forces() const;
 
     // engine_sums.cpp
     [[nodiscard]] Energy energy() const;

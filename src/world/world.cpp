@@ -179,6 +179,10 @@ std::vector<Contact> World::contacts() const {
     return impl_->pass([](const auto& engine) { return engine.contacts(); });
 }
 
+std::vector<double> World::face_forces() const {
+    return impl_->pass([](const auto& engine) { return engine.face_forces(); });
+}
+
 std::span<const Impact> World::impacts() const noexcept {
     return std::visit([](const auto& engine) { return engine.impacts(); }, impl_->engine);
 }

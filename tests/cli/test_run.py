@@ -32,6 +32,10 @@ class Run(CliTest):
             rows = list(csv.reader(file))
         return rows[0], [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
 
+    def table(self, *file):
+        with open(self.folder.joinpath(*file), newline="", encoding="ascii") as table:
+            return list(csv.DictReader(table))
+
     def test_json_keys_and_types(self):
         summary = self.json("run", "rain.toml", "--out", "out")
         for key in WHOLE_NUMBERS:
@@ -105,6 +109,17 @@ every = 0.1
         self.carom("run", "gas.toml", "--out", "out")
         self.assertNotIn("observations.csv", self.files("out"))
 
+    def test_a_floor_weighs_what_lies_on_it(self):
+        heap = RAIN.replace("max = [9, 9, 9]", "max = [3, 3, 9]").replace("radius = 0.2", "radius = 0.4")
+        self.write("heap.toml", heap + '[[observe]]\nkind = "impacts"\nfrom = 5\n')
+        self.carom("run", "heap.toml", "--out", "out", "--time", 8)
+        self.carom("run", "heap.toml", "--out", "parts", "--time", 6)
+        self.carom("run", "heap.toml", "--out", "parts", "--time", 8, "--resume", "parts/checkpoint.carom")
+        self.assertEqual(self.read("parts", "observations.csv"), self.read("out", "observations.csv"))
+        forces = [float(row["value"]) for row in self.table("out", "observations.csv")
+                  if row["quantity"] == "face_force"]
+        self.assertAlmostEqual(forces[4], 40 * 2 * 9.81, delta=1e-3 * 40 * 2 * 9.81)
+
     def test_summary_for_people(self):
         out, err = self.carom("run", "gas.toml", "--out", "out")
         self.assertEqual(err, "")
@@ -156,16 +171,12 @@ every = 0.1
             self.assertEqual(bool(row["b"]), not row["face"])
             self.assertGreater(float(row["approach_speed"]), 0)
 
-    def bodies(self, *file):
-        with open(self.folder.joinpath(*file), newline="", encoding="ascii") as table:
-            return list(csv.DictReader(table))
-
     def test_bodies_where_the_scene_asks_for_them(self):
         self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.25\n")
         self.carom("run", "tables.toml", "--out", "out", "--time", 1.1)
         self.assertEqual(self.files("out", "bodies"), [f"{number:06}.csv" for number in range(5)])
         for number in range(5):
-            rows = self.bodies("out", "bodies", f"{number:06}.csv")
+            rows = self.table("out", "bodies", f"{number:06}.csv")
             self.assertEqual(list(rows[0]), ["time", "id", "x", "y", "z", "vx", "vy", "vz", "mass", "radius",
                                              "restitution", "friction", "growth"])
             self.assertEqual([int(row["id"]) for row in rows], list(range(40)))
@@ -189,7 +200,7 @@ every = 0.1
         self.write("again.toml", RAIN.replace("generator" + generator, 'generator = "csv"\n'
                                               'file = "out/bodies/000001.csv"\n[output]\nbodies_every = 0.25\n'))
         self.carom("run", "again.toml", "--out", "again", "--time", 0.25)
-        then, now = self.bodies("out", "bodies", "000001.csv"), self.bodies("again", "bodies", "000000.csv")
+        then, now = self.table("out", "bodies", "000001.csv"), self.table("again", "bodies", "000000.csv")
         for row in [*then, *now]:
             del row["time"]
         self.assertEqual(then, now)
