@@ -14,7 +14,7 @@ from carom_cli import GAS, RAIN, CliTest
 WHOLE_NUMBERS = ("bodies", "steps", "threads", "impacts", "contacts", "bodies_outside", "peak_rss_bytes",
                  "pair_impacts", "face_impacts", "resumed_from_step")
 NUMBERS = ("dt", "wall_seconds", "ns_per_body_step", "ns_per_body_step_min", "impacts_per_second", "energy_initial",
-           "energy_final", "energy_lost", "energy_drift", "kinetic_initial", "kinetic_final", "momentum_drift",
+           "energy_final", "energy_lost", "energy_balance", "energy_drift", "kinetic_initial", "kinetic_final", "momentum_drift",
            "max_overlap", "mean_overlap", "bytes_per_body", "time")
 TEXTS = ("scene", "precision", "simd", "hash")
 COLUMNS = ["time", "step", "kinetic", "potential", "total", "lost", "momentum_x", "momentum_y", "momentum_z",
