@@ -52,10 +52,7 @@ double read_resolution(const ValueReader& value) {
 double read_dt(const ValueReader& value) {
     if (!value.is_text()) return value.number(positive);
     const std::string text = value.text();
-    const std::size_t slash = text.find('/');
-    const auto above = number_of_text(std::string_view(text).substr(0, slash));
-    const auto below = slash == std::string::npos ? 1.0 : number_of_text(std::string_view(text).substr(slash + 1));
-    const double dt = above && below ? *above / *below : 0;
+    const double dt = quotient_of_text(text).value_or(0);
     if (!positive.contains(dt)) {
         value.fail(fmt::format("must be > 0 s: a number, or a text like \"1/60\", got '{}'", text.substr(0, 40)));
     }

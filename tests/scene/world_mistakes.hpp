@@ -26,6 +26,10 @@ gravity = [0, 0, -9.81
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
      "attractor, bodies, camera, material, material_rule, observe, obstacle, output, picture, region, run, seed, title, world"},
+    {R"([[body]]
+position = [0, 0, 0]
+)",
+     "s.toml:1: body: unknown key; did you mean 'bodies'?; allowed here: ", ""},
     {R"(
 [wrold]
 )",
