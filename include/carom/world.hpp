@@ -135,7 +135,8 @@ public:
     [[nodiscard]] std::uint64_t step_count() const noexcept;
     /// The last step's report.
     [[nodiscard]] const StepReport& report() const noexcept;
-    /// Impacts of the last step in the order (time, ids); valid until the next step.
+    /// Impacts of the last step in the order (time, ids); valid until the next step. None where they are not recorded:
+    /// see set_recording().
     [[nodiscard]] std::span<const Impact> impacts() const noexcept;
     /// What rests on what at the end of the last step, and with what force: of a pile, the mean over the last piece of
     /// the step; of a held body, what its supports give now. In the order of (a, then b, then faces). The force on a
@@ -146,8 +147,9 @@ public:
     /// Impact::face. Takes O(contacts).
     [[nodiscard]] std::vector<double> face_forces() const;
     /// Contacts that began or ended in the last step, in the order of (a, then b, then faces); valid until the next
-    /// step. What the caller has changed or removed before it ends without a word. Needs WorldOptions::record_contacts.
-    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept;
+    /// step. What the caller has changed or removed before it ends without a word. Error{not_available} naming
+    /// `record_contacts` where WorldOptions has it false.
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const;
     /// Positions (m) at `time` inside the last step, on the straight line between its two ends (across a periodic
     /// face the short way): for drawing between steps. Needs WorldOptions::interpolation.
     void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;

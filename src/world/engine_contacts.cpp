@@ -117,6 +117,12 @@ std::vector<double> Engine<Real>::face_forces() const {
     return forces;
 }
 
+template <class Real>
+std::span<const ContactChange> Engine<Real>::contact_changes() const {
+    if (setting_.options.record_contacts) return contact_changes_;
+    throw Error(ErrorCode::not_available, "record_contacts", "must be true to tell changes of contacts, got false");
+}
+
 /// Whom a step finds in contact, in the order of contacts().
 template <class Real>
 void Engine<Real>::find_touching(std::vector<ContactChange>& touching) const {
@@ -157,6 +163,8 @@ template std::vector<Contact> Engine<float>::contacts() const;
 template std::vector<Contact> Engine<double>::contacts() const;
 template std::vector<double> Engine<float>::face_forces() const;
 template std::vector<double> Engine<double>::face_forces() const;
+template std::span<const ContactChange> Engine<float>::contact_changes() const;
+template std::span<const ContactChange> Engine<double>::contact_changes() const;
 template void Engine<float>::find_touching(std::vector<ContactChange>&) const;
 template void Engine<double>::find_touching(std::vector<ContactChange>&) const;
 template void Engine<float>::note_contact_changes();

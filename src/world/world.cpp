@@ -171,7 +171,7 @@ const StepReport& World::report() const noexcept {
     return std::visit([](const auto& engine) -> const StepReport& { return engine.report(); }, impl_->engine);
 }
 
-std::span<const ContactChange> World::contact_changes() const noexcept {
+std::span<const ContactChange> World::contact_changes() const {
     return impl_->pass([](const auto& engine) { return engine.contact_changes(); });
 }
 

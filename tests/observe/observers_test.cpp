@@ -92,7 +92,9 @@ TEST(Observers, ObstaclesBearTheMomentumLeftThere) {
 World falling_balls(bool serial) {
     World world({.gravity = {0, 0, -9.81}, .region = Box{{0, 0, 0}, {4, 4, 30}}, .serial_reference = serial});
     for (int k = 0; k < 60; ++k) {
-        world.add({.position = {0.7 + 1.2 * (k % 3), 0.7 + 1.2 * (k / 3 % 3) + 0.02 * (k % 5), 0.7 + 1.2 * (k / 9)},
+        const int row = k / 3 % 3;
+        const int layer = k / 9;
+        world.add({.position = {0.7 + 1.2 * (k % 3), 0.7 + 1.2 * row + 0.02 * (k % 5), 0.7 + 1.2 * layer},
                    .mass = 2,
                    .restitution = 0.5});
     }

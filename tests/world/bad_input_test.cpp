@@ -306,6 +306,13 @@ TEST_P(BadInput, InterpolatedPositions) {
                    [](World& world) { world.positions_at(0, {}, {}); });
 }
 
+TEST_P(BadInput, ChangesOfContactsThatAreNotRecorded) {
+    expect_refused(world_, {ErrorCode::not_available, "record_contacts"}, "not asked for",
+                   [](World& world) { (void)world.contact_changes(); });
+    const World recording({.precision = GetParam(), .record_contacts = true});
+    EXPECT_TRUE(recording.contact_changes().empty());
+}
+
 TEST_P(BadInput, Surroundings) {
     const auto refuse = [&](const Refusal& refusal, const std::function<void(World&)>& call) {
         expect_refused(world_, refusal, refusal.field, call);
