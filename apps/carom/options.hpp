@@ -30,8 +30,6 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// More threads than any machine has.
-inline constexpr std::uint64_t most_threads = 4096;
 /// 2^53: larger counts are not told apart as doubles, in JSON and elsewhere.
 inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53U;
 

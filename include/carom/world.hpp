@@ -49,8 +49,8 @@ struct WorldOptions {
     /// m; positions of the API are relative to this point. A multiple of the resolution.
     std::array<std::int64_t, 3> origin{};
     Drag drag{};
-    std::vector<Material> materials{}; ///< those whose restitution is a law; each key once
-    std::vector<MaterialRule> material_rules{};
+    std::vector<Material> materials{};          ///< those whose restitution is a law; each key once
+    std::vector<MaterialRule> material_rules{}; ///< each pair once
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;
     /// Piles that have lain still for half a second fall asleep, each for itself: they cost next to nothing until
@@ -65,7 +65,7 @@ struct WorldOptions {
     std::uint32_t min_windows = 1;
     /// Resolve all impacts in one queue: slower, the reference that everything else is tested against.
     bool serial_reference = false;
-    /// Threads that a step may use; 0: one for each core. No result depends on it.
+    /// Threads that a step may use, at most most_threads; 0: one for each core. No result depends on it.
     unsigned threads = 0;
     bool record_impacts = true;
     bool record_contacts = false;      ///< keep what World::contact_changes() tells
@@ -92,6 +92,7 @@ public:
     /// Adds as many bodies as `columns.position` has elements; the columns are equally long or empty.
     /// Errors name column and index. Ids come in the order of the columns. Costs O(1) a body.
     std::vector<BodyId> add(const ConstBodyColumns& columns, Overlap overlap = Overlap::refuse);
+    /// A body with all defaults is `Body{}`: bare braces could be columns as well.
     BodyId add(const Body& body, Overlap overlap = Overlap::refuse);
 
     /// Writes the wanted columns; each is as long as `ids` or empty.
@@ -197,7 +198,9 @@ public:
 
     /// The whole world as bytes: versioned, checksummed, the same on every machine.
     [[nodiscard]] std::vector<std::byte> save() const;
-    /// A world that goes on bit-identically. Throws Error{bad_data} saying what is wrong with the bytes.
+    /// A world that goes on bit-identically. How it is computed is no part of a snapshot: it has one thread for each
+    /// core until set_threads() or set_executor() say otherwise. Throws Error{bad_data} saying what is wrong with the
+    /// bytes.
     static World load(std::span<const std::byte> snapshot);
     /// 64 bits over the state by id: positions, velocities, time, collapse counters, rest. XXH64.
     [[nodiscard]] std::uint64_t hash() const;

@@ -59,6 +59,7 @@ void ImpactStatistics::observe(const World& world) {
     for (double& impulse : impulse_) impulse *= dt;
     Vec3 virial{};
     std::uint64_t pairs = 0;
+    const auto radius_of = [this](BodyId id) { return detail::element(radius_, id.slot, "body"); };
     for (const Impact& impact : world.impacts()) {
         if (impact.face >= 0) {
             impulse_[static_cast<std::size_t>(impact.face)] += impact.impulse;
@@ -66,7 +67,7 @@ void ImpactStatistics::observe(const World& world) {
         }
         ++pairs;
         const Vec3& n = impact.normal;
-        const double strength = impact.impulse * (radius_.at(impact.a.slot) + radius_.at(impact.b.slot));
+        const double strength = impact.impulse * (radius_of(impact.a) + radius_of(impact.b));
         virial += strength * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
     }
     count_ += pairs;

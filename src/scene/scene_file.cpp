@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -23,9 +24,6 @@ namespace {
 
 /// 2^53: steps beyond it could not be told apart as numbers.
 constexpr double most_steps = 0x1p53;
-
-/// More threads than any machine has; a larger number is a slip of the pen.
-constexpr std::uint64_t max_threads = 4096;
 
 /// A power of two: a number, or a text like "2^-20".
 double read_resolution(const ValueReader& value) {
@@ -141,6 +139,10 @@ void read_material_rules(TableReader& top, const std::vector<Material>& material
         MaterialRule rule;
         rule.a = static_cast<std::uint32_t>(pair[0].choice(names) + 1);
         rule.b = static_cast<std::uint32_t>(pair[1].choice(names) + 1);
+        for (const MaterialRule& other : scene.options.material_rules) {
+            if (std::minmax(other.a, other.b) == std::minmax(rule.a, rule.b))
+                pair[0].fail(fmt::format("has a rule with {} already", names[rule.b - 1]));
+        }
         const ValueReader restitution = table.need("restitution");
         rule.law = read_law(restitution);
         if (!rule.law) rule.restitution = restitution.number(zero_to_one);
@@ -164,7 +166,8 @@ void read_run(TableReader table, Scene& scene) {
         run.steps = steps->count(1, static_cast<std::uint64_t>(most_steps));
     }
     if (const auto precision = table.find("precision")) scene.options.precision = read_precision(*precision);
-    if (const auto threads = table.find("threads")) run.threads = static_cast<unsigned>(threads->count(0, max_threads));
+    if (const auto threads = table.find("threads"))
+        run.threads = static_cast<unsigned>(threads->count(0, most_threads));
     table.finish();
     scene.lines["run"] = table.line();
 }

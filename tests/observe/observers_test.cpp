@@ -313,6 +313,31 @@ TEST(Observers, RefuseWhatIsNoNumberOrNoRange) {
     expect_refused([] { Correlations(1, 0); }, out_of_range, "origin_every", "0");
 }
 
+TEST(Observers, RefusePlacesThatTheyDoNotHave) {
+    World world({.region = cube(10, FaceKind::periodic)});
+    world.add({.position = {4, 5, 5}, .velocity = {1, 0, 0}});
+    ImpactStatistics impacts(world);
+    using enum ErrorCode;
+    expect_refused([] { (void)Energies().momentum(3); }, out_of_range, "axis", "less than 3, got 3");
+    expect_refused([&] { (void)impacts.virial_rate(3); }, out_of_range, "axis", "less than 3, got 3");
+    expect_refused([] { (void)Speeds(1, 5).density(5); }, out_of_range, "bin", "less than 5, got 5");
+    for (const std::size_t power : {0U, 5U}) {
+        expect_refused([&] { (void)Speeds(1, 5).moment(power); }, out_of_range, "power", std::to_string(power));
+    }
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).density(2); }, out_of_range, "slice", "less than 2, got 2");
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).temperature(2); }, out_of_range, "slice", "2");
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).velocity(2, 0); }, out_of_range, "slice", "2");
+    expect_refused([] { (void)RadialDistribution(1, 4).g(9); }, out_of_range, "shell", "9");
+    expect_refused([] { (void)Coordination(0).share(17); }, out_of_range, "contacts", "17");
+    const Correlations correlations(2, 1);
+    expect_refused([&] { (void)correlations.time(3); }, out_of_range, "lag", "3");
+    expect_refused([&] { (void)correlations.squared_displacement(3); }, out_of_range, "lag", "3");
+    expect_refused([&] { (void)correlations.velocity_correlation(3); }, out_of_range, "lag", "3");
+    world.add({.position = {6, 5, 5}, .velocity = {-1, 0, 0}});
+    world.step(2);
+    expect_refused([&] { impacts.observe(world); }, out_of_range, "body", "less than 1, got 1");
+}
+
 TEST(Observers, RefuseWorldsThatDoNotHaveWhatTheyNeed) {
     using enum ErrorCode;
     World open;
