@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "options.hpp"
+#include "scene/reader.hpp"
 #include "scene/scene_error.hpp"
 
 #include <carom/base.hpp>
@@ -11,6 +12,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace {
 
@@ -26,14 +30,23 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
+/// Of a command that is missing or that there is not.
+std::string needed_command(const CLI::App& app) {
+    std::vector<std::string_view> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    std::string text =
+        fmt::format("a command is required: {} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+    const std::vector<std::string> rest = app.remaining();
+    if (!rest.empty()) text += fmt::format(", not '{}'{}", rest.front(), carom::scene::hint(rest.front(), names));
+    return text;
+}
+
 /// What CLI11 has to say: help that was asked for, or a mistake together with the command's usage.
 int report(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const auto commands = app.get_subcommands();
     if (commands.empty()) {
-        return report(
-            "a command is required: run, bench, validate, view, render, info or diff\ncarom: try 'carom --help'",
-            carom::cli::bad_usage);
+        return report(needed_command(app) + "\ncarom: try 'carom --help'", carom::cli::bad_usage);
     }
     return report(fmt::format("{}\ncarom: try 'carom {} --help'", error.what(), commands.front()->get_name()),
                   carom::cli::bad_usage);

@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include "scene/reader.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -14,9 +16,8 @@ namespace carom::cli {
 namespace {
 
 /// Parses all of `text`, or nothing.
-template <class T>
-std::optional<T> parse(const std::string& text) {
-    T value{};
+std::optional<std::uint64_t> whole_number_of(const std::string& text) {
+    std::uint64_t value = 0;
     const char* end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc{} || rest != end) return std::nullopt;
@@ -26,15 +27,16 @@ std::optional<T> parse(const std::string& text) {
 } // namespace
 
 std::uint64_t parse_count(std::string_view option, const std::string& text, std::uint64_t least, std::uint64_t most) {
-    const auto value = parse<std::uint64_t>(text);
+    const auto value = whole_number_of(text);
     if (value && *value >= least && *value <= most) return *value;
     throw UsageError(fmt::format("{} must be a whole number from {} to {}, not '{}'", option, least, most, text));
 }
 
 double parse_positive(std::string_view option, const std::string& text, std::string_view unit) {
-    const auto value = parse<double>(text);
+    const auto value = scene::quotient_of_text(text);
     if (value && std::isfinite(*value) && *value > 0) return *value;
-    throw UsageError(fmt::format("{} must be a number of {} greater than 0, not '{}'", option, unit, text));
+    throw UsageError(
+        fmt::format("{} must be a number of {} greater than 0, such as 0.5 or 1/60, not '{}'", option, unit, text));
 }
 
 Precision parse_precision(std::string_view option, const std::string& text) {

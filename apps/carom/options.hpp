@@ -30,14 +30,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// More threads than any machine has.
-inline constexpr std::uint64_t most_threads = 4096;
 /// 2^53: larger counts are not told apart as doubles, in JSON and elsewhere.
 inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53U;
 
 /// A whole number from `least` to `most`, or UsageError naming the option.
 std::uint64_t parse_count(std::string_view option, const std::string& text, std::uint64_t least, std::uint64_t most);
-/// A finite number > 0, or UsageError naming the option. `what` is its unit, for the message.
+/// A finite number or quotient > 0, or UsageError naming the option. `what` is its unit, for the message.
 double parse_positive(std::string_view option, const std::string& text, std::string_view unit);
 Precision parse_precision(std::string_view option, const std::string& text);
 

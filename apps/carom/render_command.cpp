@@ -160,8 +160,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
             },
             "seconds of the world in a second of a film (default: the scene's)")
         ->type_name("X");
-    add_count(*command, "--supersample", "samples of a pixel in each direction (default: 2)", 1, most_supersampling,
-              options->supersample);
+    add_count(*command, "--supersample", "samples of a pixel in each direction, 1 to 8 (default: 2)", 1,
+              most_supersampling, options->supersample);
     command
         ->add_option("--colour-by", options->colour_by,
                      fmt::format("{} (default: the scene's)", fmt::join(scene::colour_names, ", ")))

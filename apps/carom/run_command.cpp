@@ -1,3 +1,4 @@
+#include "body_frames.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -65,6 +66,7 @@ void step_to_the_end(Simulation& simulation, const OutputFolder& folder, double 
     Progress progress(simulation.steps(), simulation.schedule().steps);
     while (!simulation.finished() && interrupted_by() == 0) {
         simulation.advance();
+        write_due_frame(simulation, folder);
         const Ledger& ledger = simulation.world().ledger();
         progress.update(simulation.steps(), simulation.world().time(), ledger.impacts + ledger.face_impacts);
         if (checkpoint_every > 0 && interval_ends(simulation.steps(), simulation.schedule().dt, checkpoint_every)) {
@@ -132,7 +134,12 @@ int run(const RunOptions& options) {
     const OutputFolder folder(options.out.empty() ? "out/" + scene.name : options.out);
     const unsigned threads = threads_used(scene.run.threads);
     Simulation simulation(scene);
-    if (!options.resume.empty()) simulation.resume(options.resume);
+    if (!options.resume.empty()) {
+        simulation.resume(options.resume);
+        check_frames(simulation.frames(), folder, options.resume);
+    }
+    remove_frames_from(simulation.frames(), folder);
+    if (options.resume.empty()) write_due_frame(simulation, folder);
     simulation.use_threads(threads);
 
     note_interrupts();

@@ -28,6 +28,7 @@ scene::RunIdentity identity_of(const World& world, const scene::Scene& scene) {
     scene::RunIdentity identity = scene::identity_of(world, scene.name, scene.observations);
     identity.dt = scene.run.dt;
     identity.timeline_every = scene.outputs.timeline_every;
+    identity.bodies_every = scene.outputs.bodies_every;
     identity.check_overlap = scene.outputs.check_overlap;
     identity.record_impacts = scene.outputs.record_impacts;
     return identity;
@@ -58,6 +59,7 @@ Simulation::Simulation(const scene::Scene& scene)
     progress_.start = scene::read_books(world_);
     progress_.rows.push_back(scene::timeline_row(world_, 0));
     if (scene.outputs.check_overlap) overlap_search_.emplace(world_);
+    if (scene.outputs.bodies_every > 0) progress_.frames = 1;
 }
 
 void Simulation::resume(const std::filesystem::path& file) {
@@ -100,6 +102,12 @@ void Simulation::advance() {
     if (interval_ends(step, schedule_.dt, scene_.outputs.timeline_every)) {
         progress_.rows.push_back(scene::timeline_row(world_, step));
     }
+    if (frame_is_due()) ++progress_.frames;
+}
+
+bool Simulation::frame_is_due() const {
+    const double every = scene_.outputs.bodies_every;
+    return every > 0 && (progress_.steps == 0 || interval_ends(progress_.steps, schedule_.dt, every));
 }
 
 double Simulation::behind() const {

@@ -50,6 +50,10 @@ public:
     [[nodiscard]] std::vector<std::byte> checkpoint() const;
     /// The rows that were due, and one for now.
     [[nodiscard]] std::vector<scene::TimelineRow> timeline() const;
+    /// True if a table of all bodies is to be written of now.
+    [[nodiscard]] bool frame_is_due() const;
+    /// Tables of all bodies that were due so far, that of now included.
+    [[nodiscard]] std::uint64_t frames() const { return progress_.frames; }
     [[nodiscard]] const std::string& impact_log() const { return progress_.impact_log; }
     /// What the scene's observers have seen.
     [[nodiscard]] std::span<const scene::Observation> observations() const { return observations_; }

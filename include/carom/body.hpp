@@ -14,7 +14,8 @@
 namespace carom {
 
 /// Names a body for as long as it exists, wherever it is kept in memory. A default id names nothing.
-/// An id is refused once its body was removed, and by every world but its own (and that world's snapshots).
+/// An id is refused once its body was removed, and by every world but its own (and that world's copies and snapshots).
+/// Worlds are told apart by 16 bits: of worlds that were made 65 536 after each other one takes the other's ids.
 struct BodyId {
     std::uint32_t slot = 0xffffffffU; ///< place in the world's table of ids; the order of ids
     std::uint16_t generation = 0;     ///< how often the slot was given out before

@@ -28,11 +28,15 @@ public:
     virtual void run(std::size_t parts, Task task, void* context) = 0;
 };
 
+/// More threads than any machine has: more are refused, with Error{out_of_range} naming `threads`.
+inline constexpr unsigned most_threads = 4096;
+
 /// Everything in the caller's thread.
 std::shared_ptr<Executor> make_serial_executor();
 /// oneTBB, or plain threads where carom was built without it. `threads` = 0: one for each core.
 std::shared_ptr<Executor> make_default_executor(unsigned threads = 0);
 /// Threads of its own, from the standard library, kept until the executor goes. `threads` = 0: one for each core.
+/// Error{not_available} naming `threads` where the system does not give so many.
 std::shared_ptr<Executor> make_thread_executor(unsigned threads = 0);
 
 /// \name Instruction sets of the vectorised parts; no result depends on them

@@ -8,7 +8,7 @@
 /// every 100th, all observers together cost less than a tenth of the steps (tests/observe/cost_test.cpp). The same
 /// world and the same calls give the same bits. SI units; temperatures are kT, in joules. Static bodies are left out
 /// unless it says otherwise. Formulas: Allen & Tildesley, Computer Simulation of Liquids (2nd edition 2017), chapters 2
-/// and 8.
+/// and 8. Bins, axes and the like that there are not are refused with Error{out_of_range}.
 ///
 /// Each has a function `transfer(archive, self)` for whoever saves and restores it: it calls `archive.settings(...)`
 /// with what it was made with, `archive(...)` with what it has gathered, and `archive.elements(list)` with lists whose
@@ -29,6 +29,20 @@
 #include <vector>
 
 namespace carom {
+
+namespace detail {
+
+/// Throws Error{out_of_range} naming the index.
+[[noreturn]] void refuse_index(const char* name, std::size_t index, std::size_t size);
+
+/// An element of a list, or Error{out_of_range}.
+template <class List>
+const auto& element(const List& list, std::size_t index, const char* name) {
+    if (index >= list.size()) refuse_index(name, index, list.size());
+    return list[index];
+}
+
+} // namespace detail
 
 /// A measured value and its standard error, in the same unit: infinite where nothing says how sure the value is.
 struct Estimate {
@@ -89,7 +103,9 @@ public:
     [[nodiscard]] Estimate potential() const { return potential_.estimate(); }
     [[nodiscard]] Estimate total() const { return total_.estimate(); }
     /// `axis` 0 to 2.
-    [[nodiscard]] Estimate momentum(std::size_t axis) const { return momentum_.at(axis).estimate(); }
+    [[nodiscard]] Estimate momentum(std::size_t axis) const {
+        return detail::element(momentum_, axis, "axis").estimate();
+    }
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive(self.kinetic_, self.potential_, self.total_, self.momentum_);
@@ -102,29 +118,31 @@ private:
     std::array<BlockAverage, 3> momentum_;
 };
 
-/// Collision rate, pressure and what the walls bear, from the impacts of every step.
+/// Collision rate, pressure and what the walls bear, from the impacts and contacts of every step.
 class ImpactStatistics {
 public:
     /// Reads the radii of the world's bodies: make a new one when bodies are added or their radii change. The world
     /// must record all its impacts: Error{not_available} naming `record_impacts` or `least_recorded_impulse`.
     explicit ImpactStatistics(const World& world);
 
-    /// To be called after each step.
+    /// To be called after each step. Error{out_of_range} naming `body` for one that came later.
     void observe(const World& world);
 
     /// 1/s, impacts with other bodies per body: 2 n / (N t). Its inverse is the mean free time.
     [[nodiscard]] Estimate collision_rate() const { return rate_.estimate(); }
     /// J/s, the sum of impulse times contact distance (the sum of the radii) times the square of the normal's component
     /// along `axis` (0 to 2), over all impacts between bodies, by time.
-    [[nodiscard]] Estimate virial_rate(std::size_t axis) const { return virial_.at(axis).estimate(); }
+    [[nodiscard]] Estimate virial_rate(std::size_t axis) const {
+        return detail::element(virial_, axis, "axis").estimate();
+    }
     /// Pa, by the virial theorem: (2 K + sum over impacts of impulse times contact distance / t) / (3 V), K being the
     /// kinetic energy at the end of every 8th step and V the volume of the box. Error{not_available} naming `region`
     /// where the world is not bounded by a box.
     [[nodiscard]] Estimate pressure() const;
     /// Whether a pressure can be said: the world is bounded by a box.
     [[nodiscard]] bool has_volume() const noexcept { return volume_.has_value(); }
-    /// N, the mean force on a face of the region or an obstacle by the momentum that bodies leave there in impacts
-    /// (`face` as in Impact::face).
+    /// N along the normal, the mean force on a face of the region or an obstacle (`face` as in Impact::face): by the
+    /// momentum that bodies leave there in impacts, and by those that rest on it, with the force at each step's end.
     [[nodiscard]] Estimate face_force(std::size_t face) const;
     /// Faces of the region and obstacles.
     [[nodiscard]] std::size_t faces() const noexcept { return face_force_.size(); }
@@ -167,9 +185,9 @@ public:
     /// m/s, the middle of a bin.
     [[nodiscard]] double speed(std::size_t bin) const;
     /// s/m, probability density of a bin.
-    [[nodiscard]] Estimate density(std::size_t bin) const { return histogram_.at(bin).estimate(); }
+    [[nodiscard]] Estimate density(std::size_t bin) const { return detail::element(histogram_, bin, "bin").estimate(); }
     /// (m/s)^power, the mean of |v|^power for `power` 1 to 4.
-    [[nodiscard]] Estimate moment(std::size_t power) const { return moments_.at(power - 1).estimate(); }
+    [[nodiscard]] Estimate moment(std::size_t power) const;
     /// J, mean kinetic energy per degree of freedom, twice: the mean of m v^2 / 3.
     [[nodiscard]] Estimate temperature() const { return temperature_.estimate(); }
     /// Second Sonine coefficient (3/5) <v^4> / <v^2>^2 - 1, the mean over samples; 0 for Maxwell's distribution of
@@ -206,7 +224,9 @@ public:
     /// m, the middle of a slice.
     [[nodiscard]] double position(std::size_t slice) const;
     /// 1/m^3, centres of bodies.
-    [[nodiscard]] Estimate density(std::size_t slice) const { return density_.at(slice).estimate(); }
+    [[nodiscard]] Estimate density(std::size_t slice) const {
+        return detail::element(density_, slice, "slice").estimate();
+    }
     /// J: (<m v^2> - <m> |u|^2) / 3 with the mean velocity u of the slice.
     [[nodiscard]] Estimate temperature(std::size_t slice) const;
     /// m/s along `component` (0 to 2), weighted by mass.
@@ -252,7 +272,7 @@ public:
     [[nodiscard]] std::size_t shells() const noexcept { return g_.size(); }
     /// m, the middle of a shell.
     [[nodiscard]] double distance(std::size_t shell) const;
-    [[nodiscard]] Estimate g(std::size_t shell) const { return g_.at(shell).estimate(); }
+    [[nodiscard]] Estimate g(std::size_t shell) const { return detail::element(g_, shell, "shell").estimate(); }
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive.settings(self.most_);
@@ -280,7 +300,9 @@ public:
     /// The same without rattlers: bodies with fewer than 4 contacts.
     [[nodiscard]] Estimate mean_without_rattlers() const { return without_rattlers_.estimate(); }
     /// Share of the bodies with so many contacts (the last: or more).
-    [[nodiscard]] Estimate share(std::size_t contacts) const { return shares_.at(contacts).estimate(); }
+    [[nodiscard]] Estimate share(std::size_t contacts) const {
+        return detail::element(shares_, contacts, "contacts").estimate();
+    }
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive.settings(self.gap_);
@@ -331,11 +353,15 @@ public:
 
     [[nodiscard]] std::size_t lags() const noexcept { return displacement_.size(); }
     /// s
-    [[nodiscard]] double time(std::size_t lag) const { return time_.at(lag).estimate().value; }
+    [[nodiscard]] double time(std::size_t lag) const { return detail::element(time_, lag, "lag").estimate().value; }
     /// m^2
-    [[nodiscard]] Estimate squared_displacement(std::size_t lag) const { return displacement_.at(lag).estimate(); }
+    [[nodiscard]] Estimate squared_displacement(std::size_t lag) const {
+        return detail::element(displacement_, lag, "lag").estimate();
+    }
     /// m^2/s^2
-    [[nodiscard]] Estimate velocity_correlation(std::size_t lag) const { return velocity_.at(lag).estimate(); }
+    [[nodiscard]] Estimate velocity_correlation(std::size_t lag) const {
+        return detail::element(velocity_, lag, "lag").estimate();
+    }
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive.settings(self.origin_every_, self.most_origins_);

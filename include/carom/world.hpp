@@ -49,8 +49,8 @@ struct WorldOptions {
     /// m; positions of the API are relative to this point. A multiple of the resolution.
     std::array<std::int64_t, 3> origin{};
     Drag drag{};
-    std::vector<Material> materials{}; ///< those whose restitution is a law; each key once
-    std::vector<MaterialRule> material_rules{};
+    std::vector<Material> materials{};          ///< those whose restitution is a law; each key once
+    std::vector<MaterialRule> material_rules{}; ///< each pair once
     /// s, > 0: a touching body comes to rest when its remaining bounces would last less than this.
     double rest_time = 1.0 / 120;
     /// Piles that have lain still for half a second fall asleep, each for itself: they cost next to nothing until
@@ -65,7 +65,7 @@ struct WorldOptions {
     std::uint32_t min_windows = 1;
     /// Resolve all impacts in one queue: slower, the reference that everything else is tested against.
     bool serial_reference = false;
-    /// Threads that a step may use; 0: one for each core. No result depends on it.
+    /// Threads that a step may use, at most most_threads; 0: one for each core. No result depends on it.
     unsigned threads = 0;
     bool record_impacts = true;
     bool record_contacts = false;      ///< keep what World::contact_changes() tells
@@ -92,6 +92,7 @@ public:
     /// Adds as many bodies as `columns.position` has elements; the columns are equally long or empty.
     /// Errors name column and index. Ids come in the order of the columns. Costs O(1) a body.
     std::vector<BodyId> add(const ConstBodyColumns& columns, Overlap overlap = Overlap::refuse);
+    /// A body with all defaults is `Body{}`: bare braces could be columns as well.
     BodyId add(const Body& body, Overlap overlap = Overlap::refuse);
 
     /// Writes the wanted columns; each is as long as `ids` or empty.
@@ -135,16 +136,21 @@ public:
     [[nodiscard]] std::uint64_t step_count() const noexcept;
     /// The last step's report.
     [[nodiscard]] const StepReport& report() const noexcept;
-    /// Impacts of the last step in the order (time, ids); valid until the next step.
+    /// Impacts of the last step in the order (time, ids); valid until the next step. None where they are not recorded:
+    /// see set_recording().
     [[nodiscard]] std::span<const Impact> impacts() const noexcept;
     /// What rests on what at the end of the last step, and with what force: of a pile, the mean over the last piece of
     /// the step; of a held body, what its supports give now. In the order of (a, then b, then faces). The force on a
     /// face or a static body is the sum of `force * normal + friction` over its contacts. Takes O(contacts log
     /// contacts).
     [[nodiscard]] std::vector<Contact> contacts() const;
+    /// N along the normal, with which contacts() press on each face of the region and obstacle, numbered as in
+    /// Impact::face. Takes O(contacts).
+    [[nodiscard]] std::vector<double> face_forces() const;
     /// Contacts that began or ended in the last step, in the order of (a, then b, then faces); valid until the next
-    /// step. What the caller has changed or removed before it ends without a word. Needs WorldOptions::record_contacts.
-    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept;
+    /// step. What the caller has changed or removed before it ends without a word. Error{not_available} naming
+    /// `record_contacts` where WorldOptions has it false.
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const;
     /// Positions (m) at `time` inside the last step, on the straight line between its two ends (across a periodic
     /// face the short way): for drawing between steps. Needs WorldOptions::interpolation.
     void positions_at(double time, std::span<const BodyId> ids, std::span<Vec3> positions) const;
@@ -192,7 +198,9 @@ public:
 
     /// The whole world as bytes: versioned, checksummed, the same on every machine.
     [[nodiscard]] std::vector<std::byte> save() const;
-    /// A world that goes on bit-identically. Throws Error{bad_data} saying what is wrong with the bytes.
+    /// A world that goes on bit-identically. How it is computed is no part of a snapshot: it has one thread for each
+    /// core until set_threads() or set_executor() say otherwise. Throws Error{bad_data} saying what is wrong with the
+    /// bytes.
     static World load(std::span<const std::byte> snapshot);
     /// 64 bits over the state by id: positions, velocities, time, collapse counters, rest. XXH64.
     [[nodiscard]] std::uint64_t hash() const;

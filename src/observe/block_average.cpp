@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace carom {
 
@@ -10,6 +11,11 @@ namespace {
 constexpr std::size_t most_blocks = 64;
 
 } // namespace
+
+void detail::refuse_index(const char* name, std::size_t index, std::size_t size) {
+    throw Error(ErrorCode::out_of_range, name,
+                "must be less than " + std::to_string(size) + ", got " + std::to_string(index));
+}
 
 void BlockAverage::add(double value, double weight) {
     if (in_last_ == 0) {

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::uint64_t kinetic_every = 8; // steps: the sum over all bodies costs more than the impacts
 
-/// Faces of the region, as Impact::face counts them.
-std::size_t faces_of(const Region& region) {
-    if (std::holds_alternative<Box>(region)) return 6;
-    if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) return planes->size();
-    return std::holds_alternative<Shell>(region) ? 1 : 0;
-}
-
 double volume_of(const Box& box) {
     const Vec3 size = box.max - box.min;
     return size.x * size.y * size.z;
@@ -54,7 +47,7 @@ ImpactStatistics::ImpactStatistics(const World& world) {
     bodies_ = static_cast<double>(std::count_if(mass.begin(), mass.end(), [](double m) { return m < infinite_mass; }));
     const Region region = world.region();
     if (const auto* box = std::get_if<Box>(&region)) volume_ = volume_of(*box);
-    face_force_.resize(faces_of(region) + world.options().obstacles.size());
+    face_force_.resize(world.face_forces().size());
     impulse_.resize(face_force_.size());
 }
 
@@ -62,9 +55,11 @@ void ImpactStatistics::observe(const World& world) {
     check_recording(world.options());
     const double dt = world.report().advanced;
     if (!(dt > 0 && bodies_ > 0)) return;
-    std::fill(impulse_.begin(), impulse_.end(), 0.0);
+    impulse_ = world.face_forces();
+    for (double& impulse : impulse_) impulse *= dt;
     Vec3 virial{};
     std::uint64_t pairs = 0;
+    const auto radius_of = [this](BodyId id) { return detail::element(radius_, id.slot, "body"); };
     for (const Impact& impact : world.impacts()) {
         if (impact.face >= 0) {
             impulse_[static_cast<std::size_t>(impact.face)] += impact.impulse;
@@ -72,7 +67,7 @@ void ImpactStatistics::observe(const World& world) {
         }
         ++pairs;
         const Vec3& n = impact.normal;
-        const double strength = impact.impulse * (radius_.at(impact.a.slot) + radius_.at(impact.b.slot));
+        const double strength = impact.impulse * (radius_of(impact.a) + radius_of(impact.b));
         virial += strength * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
     }
     count_ += pairs;

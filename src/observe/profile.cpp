@@ -49,7 +49,7 @@ void Profile::observe(const Sample& sample) {
 double Profile::position(std::size_t slice) const { return low_ + (static_cast<double>(slice) + 0.5) * width_; }
 
 Estimate Profile::temperature(std::size_t slice) const {
-    const Estimate energy = energy_.at(slice).estimate();
+    const Estimate energy = detail::element(energy_, slice, "slice").estimate();
     double flow = 0;
     for (const auto& component : velocity_) {
         const double u = component[slice].estimate().value;
@@ -60,7 +60,7 @@ Estimate Profile::temperature(std::size_t slice) const {
 
 Estimate Profile::velocity(std::size_t slice, std::size_t component) const {
     observe::check_axis(component);
-    return velocity_[component].at(slice).estimate();
+    return detail::element(velocity_[component], slice, "slice").estimate();
 }
 
 } // namespace carom

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace carom {
 
@@ -40,6 +41,11 @@ void Speeds::observe(const Sample& sample) {
 }
 
 double Speeds::speed(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * width_; }
+
+Estimate Speeds::moment(std::size_t power) const {
+    if (power >= 1 && power <= moments_.size()) return moments_[power - 1].estimate();
+    throw Error(ErrorCode::out_of_range, "power", "must be 1 to 4, got " + std::to_string(power));
+}
 
 Estimate mean_free_path(const Speeds& speeds, const ImpactStatistics& impacts) {
     const Estimate speed = speeds.moment(1);

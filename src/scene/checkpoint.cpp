@@ -19,7 +19,7 @@ namespace {
 // Layout: signature (8 bytes), version (8), length of what follows the checksum (8), XXH64 of that (8), identity,
 // progress, what observers have seen, snapshot of the world.
 constexpr std::string_view signature = "caromCKP";
-constexpr std::uint64_t format_version = 2;
+constexpr std::uint64_t format_version = 3;
 constexpr std::size_t head_size = 32;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "checkpoint", reason); }
@@ -66,8 +66,9 @@ std::optional<std::string> difference(const RunIdentity& saved, const RunIdentit
     if (saved.bodies != wanted.bodies) {
         return fmt::format("its scene has {} bodies, not {}", saved.bodies, wanted.bodies);
     }
-    if (saved.timeline_every != wanted.timeline_every || saved.check_overlap != wanted.check_overlap ||
-        saved.record_impacts != wanted.record_impacts || saved.observers != wanted.observers) {
+    if (saved.timeline_every != wanted.timeline_every || saved.bodies_every != wanted.bodies_every ||
+        saved.check_overlap != wanted.check_overlap || saved.record_impacts != wanted.record_impacts ||
+        saved.observers != wanted.observers) {
         return "its run wrote other outputs";
     }
     if (saved.world != wanted.world) return "the scene has changed since";

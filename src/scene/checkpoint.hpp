@@ -26,6 +26,7 @@ struct RunIdentity {
     Precision precision = Precision::double_precision;
     double dt = 0;             ///< s
     double timeline_every = 0; ///< s between rows of the timeline; 0: a row per step
+    double bodies_every = 0;   ///< s between tables of all bodies; 0: none
     bool check_overlap = true;
     bool record_impacts = false;
 
@@ -33,7 +34,7 @@ struct RunIdentity {
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive(self.scene, self.bodies, self.world, self.observers, self.precision, self.dt, self.timeline_every,
-                self.check_overlap, self.record_impacts);
+                self.bodies_every, self.check_overlap, self.record_impacts);
     }
 };
 
@@ -53,11 +54,12 @@ struct RunProgress {
     std::uint64_t contacts = 0;    ///< resting ones, at the end of the last step
     std::vector<TimelineRow> rows; ///< those that are due at regular times
     std::string impact_log;        ///< lines of impacts.csv; empty if impacts are not recorded
+    std::uint64_t frames = 0;      ///< tables of all bodies that were due
 
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
         archive(self.steps, self.last_step_short, self.start, self.largest_overlap, self.contacts, self.rows,
-                self.impact_log);
+                self.impact_log, self.frames);
     }
 };
 

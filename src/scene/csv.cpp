@@ -9,12 +9,13 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <span>
 
 namespace carom::scene {
 
 namespace {
 
-/// One kind of column: its name, what it takes, and where its values go.
+/// One kind of column: its name, what it takes, and where its values are.
 struct Column {
     std::string_view name;
     NumberRange range;
@@ -34,6 +35,9 @@ const std::array<Column, 11> columns{{
     {"friction", not_negative, [](BodyTable& t, std::size_t i) -> double& { return t.friction[i]; }},
     {"growth", speed_range, [](BodyTable& t, std::size_t i) -> double& { return t.growth[i]; }},
 }};
+
+/// What tells one table of a run from another, and one of its bodies: no part of a body's state.
+constexpr std::array<std::string_view, 2> labels{"time", "id"};
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blanks = " \t\r";
@@ -93,33 +97,41 @@ private:
     }
 
     void read_header(const std::vector<std::string_view>& names) {
-        std::vector<std::string_view> allowed;
-        std::transform(columns.begin(), columns.end(), std::back_inserter(allowed),
-                       [](const Column& column) { return column.name; });
-        for (const std::string_view name : names) {
-            const auto found = std::find(allowed.begin(), allowed.end(), name);
-            if (found == allowed.end()) fail(name, not_one_of(name, allowed));
-            const Column* column = &columns[static_cast<std::size_t>(found - allowed.begin())];
-            if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) fail(name, "is there twice");
-            columns_.push_back(column);
+        for (auto name = names.begin(); name != names.end(); ++name) {
+            if (std::find(names.begin(), name, *name) != name) fail(*name, "is there twice");
+            columns_.push_back(column_of(*name));
         }
         for (const std::string_view needed : {"x", "y", "z"}) {
             if (std::find(names.begin(), names.end(), needed) == names.end()) fail(needed, "is missing");
         }
     }
 
+    /// Null for a column that is passed over.
+    [[nodiscard]] const Column* column_of(std::string_view name) const {
+        if (std::find(labels.begin(), labels.end(), name) != labels.end()) return nullptr;
+        std::vector<std::string_view> allowed;
+        std::transform(columns.begin(), columns.end(), std::back_inserter(allowed),
+                       [](const Column& column) { return column.name; });
+        const auto found = std::find(allowed.begin(), allowed.end(), name);
+        if (found == allowed.end()) fail(name, not_one_of(name, allowed));
+        return &columns[static_cast<std::size_t>(found - allowed.begin())];
+    }
+
     CsvBodies read_rows() {
         CsvBodies bodies;
         bodies.table = BodyTable::of(rows_.size());
-        for (const Column* column : columns_) bodies.given.emplace_back(column->name);
+        for (const Column* column : columns_) {
+            if (column != nullptr) bodies.given.emplace_back(column->name);
+        }
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             line_ = rows_[i].line;
             const std::vector<std::string_view> cells = cells_of(rows_[i].content);
             if (cells.size() != columns_.size()) {
                 fail("", fmt::format("must have {} values, got {}", columns_.size(), cells.size()));
             }
-            for (std::size_t c = 0; c < cells.size(); ++c)
-                columns_[c]->cell(bodies.table, i) = number(*columns_[c], cells[c]);
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                if (columns_[c] != nullptr) columns_[c]->cell(bodies.table, i) = number(*columns_[c], cells[c]);
+            }
         }
         return bodies;
     }
@@ -137,9 +149,21 @@ private:
     const std::string& file_;
     std::uint64_t max_bodies_;
     int line_ = 0;
-    std::vector<const Column*> columns_; ///< of the file, in its order
+    std::vector<const Column*> columns_; ///< of the file, in its order; null where one is passed over
     std::vector<Row> rows_;
 };
+
+BodyTable table_of(const World& world, std::span<const BodyId> ids) {
+    BodyTable table = BodyTable::of(ids.size());
+    world.get(ids, {.position = table.position,
+                    .velocity = table.velocity,
+                    .mass = table.mass,
+                    .radius = table.radius,
+                    .restitution = table.restitution,
+                    .friction = table.friction,
+                    .growth = table.growth});
+    return table;
+}
 
 } // namespace
 
@@ -149,6 +173,21 @@ CsvBodies parse_csv(std::string_view text, const std::string& file, std::uint64_
 
 CsvBodies read_csv(const std::filesystem::path& file, std::uint64_t max_bodies) {
     return parse_csv(read_text_file(file), file.string(), max_bodies);
+}
+
+std::string to_csv(const World& world) {
+    const std::vector<BodyId> ids = world.ids();
+    BodyTable table = table_of(world, ids);
+    fmt::memory_buffer text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "{}", fmt::join(labels, ","));
+    for (const Column& column : columns) fmt::format_to(out, ",{}", column.name);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        fmt::format_to(out, "\n{},{}", world.time(), ids[i].slot);
+        for (const Column& column : columns) fmt::format_to(out, ",{}", column.cell(table, i));
+    }
+    text.push_back('\n');
+    return fmt::to_string(text);
 }
 
 } // namespace carom::scene

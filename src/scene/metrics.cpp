@@ -37,30 +37,44 @@ double sum_of_speeds_times_masses(const World& world) {
     return sum.value();
 }
 
+double dissipated(const Ledger& ledger) {
+    return ledger.lost_to_restitution + ledger.lost_to_friction + ledger.lost_to_drag;
+}
+
+/// J that the books do not account for.
+double imbalance(const Books& start, const Books& end) {
+    CompensatedSum change;
+    for (const double term : {end.kinetic, -start.kinetic, end.potential, -start.potential, end.dissipated,
+                              -start.dissipated, start.work, -end.work}) {
+        change.add(term);
+    }
+    return change.value();
+}
+
 } // namespace
 
-double energy_lost(const Ledger& ledger) {
-    return ledger.lost_to_restitution + ledger.lost_to_friction + ledger.lost_to_drag - ledger.prescribed_work;
-}
+double energy_lost(const Ledger& ledger) { return dissipated(ledger) - ledger.prescribed_work; }
 
 Books read_books(const World& world) {
     const Energy energy = world.energy();
     return {.kinetic = energy.kinetic,
             .potential = energy.potential,
-            .lost = energy_lost(world.ledger()),
+            .dissipated = dissipated(world.ledger()),
+            .work = world.ledger().prescribed_work,
             .momentum = world.momentum(),
             .outer_impulse = world.ledger().outer_impulse,
             .momentum_scale = sum_of_speeds_times_masses(world)};
 }
 
+double energy_balance(const Books& start, const Books& end) {
+    const double scale = std::max({start.kinetic, end.kinetic, std::abs(start.potential), std::abs(end.potential),
+                                   std::abs(end.dissipated - start.dissipated), std::abs(end.work - start.work)});
+    return scale == 0 ? 0 : imbalance(start, end) / scale;
+}
+
 double energy_drift(const Books& start, const Books& end) {
     const double scale = std::max(start.kinetic, end.kinetic);
-    if (scale == 0) return 0;
-    CompensatedSum change;
-    for (const double term : {end.kinetic, -start.kinetic, end.potential, -start.potential, end.lost, -start.lost}) {
-        change.add(term);
-    }
-    return change.value() / scale;
+    return scale == 0 ? 0 : imbalance(start, end) / scale;
 }
 
 double momentum_drift(const Books& start, const Books& end) {

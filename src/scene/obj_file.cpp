@@ -1,5 +1,6 @@
 #include "scene/obj_file.hpp"
 
+#include "collision/triangle.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene_error.hpp"
 #include "scene/text_file.hpp"
@@ -79,8 +80,17 @@ private:
         std::vector<std::uint32_t> corners;
         for (std::size_t k = 1; k < words.size(); ++k) corners.push_back(vertex_of(words[k]));
         for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-            mesh_.triangles.push_back({corners[0], corners[k], corners[k + 1]});
+            add_triangle({corners[0], corners[k], corners[k + 1]});
         }
+    }
+
+    void add_triangle(const std::array<std::uint32_t, 3>& corners) {
+        const auto& [a, b, c] = corners;
+        if (detail::is_degenerate(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c])) {
+            fail("f", fmt::format("must have corners that are not in one line, got vertices {}, {} and {}", a + 1,
+                                  b + 1, c + 1));
+        }
+        mesh_.triangles.push_back(corners);
     }
 
     /// The vertex of a corner: what stands before the first slash.

@@ -182,8 +182,9 @@ std::string to_csv(std::span<const Observation> observations) {
     fmt::memory_buffer text;
     text.append(std::string_view("observer,quantity,unit,at,value,standard_error\n"));
     for (const Observation& observation : observations) {
-        if (observation.samples == 0) continue;
         Table table(text, observation.name);
+        table.add("samples", "1", {.value = static_cast<double>(observation.samples)});
+        if (observation.samples == 0) continue;
         std::visit([&](const auto& observer) { write(table, observer); }, observation.observer);
     }
     return fmt::to_string(text);

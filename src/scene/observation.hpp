@@ -54,7 +54,8 @@ std::vector<std::byte> save_observations(std::span<const Observation> observatio
 void restore_observations(std::span<Observation> observations, std::span<const std::byte> bytes, const World& world);
 
 /// What they have seen as CSV: a line for each quantity, or for each of its values along an axis, with the standard
-/// error; empty where nothing says how large that is. None of observers without a sample. Numbers read back exactly.
+/// error; empty where nothing says how large that is. Of observers without a sample only that. Numbers read back
+/// exactly.
 std::string to_csv(std::span<const Observation> observations);
 
 } // namespace carom::scene

@@ -31,18 +31,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// "; did you mean 'x'?", or nothing where no word is near. Long texts are no slips of the pen.
-std::string hint(std::string_view got, std::span<const std::string_view> words) {
-    constexpr std::size_t longest = 40;
-    if (words.empty() || got.size() > longest) return {};
-    const auto nearest = std::min_element(words.begin(), words.end(), [got](std::string_view a, std::string_view b) {
-        return edit_distance(got, a) < edit_distance(got, b);
-    });
-    const std::size_t distance = edit_distance(got, *nearest);
-    if (distance > 2 || distance >= nearest->size()) return {};
-    return fmt::format("; did you mean '{}'?", *nearest);
-}
-
 /// A text of the file, shortened to what fits a message.
 std::string shown(std::string_view text) {
     constexpr std::size_t longest = 60;
@@ -58,6 +46,19 @@ const char* type_name(const TomlValue& value) {
 
 } // namespace
 
+std::string hint(std::string_view got, std::span<const std::string_view> words) {
+    constexpr std::size_t longest = 40; // longer texts are no slips of the pen
+    if (words.empty() || got.size() > longest) return {};
+    const auto nearest = std::min_element(words.begin(), words.end(), [got](std::string_view a, std::string_view b) {
+        return edit_distance(got, a) < edit_distance(got, b);
+    });
+    const std::size_t distance = edit_distance(got, *nearest);
+    // Words that begin alike may differ by one letter more: body and bodies.
+    const std::size_t farthest = got.substr(0, 3) == nearest->substr(0, 3) ? 3 : 2;
+    if (distance > farthest || distance >= nearest->size()) return {};
+    return fmt::format("; did you mean '{}'?", *nearest);
+}
+
 std::string not_one_of(std::string_view got, std::span<const std::string_view> allowed) {
     return fmt::format("must be one of {}, got {}{}", fmt::join(allowed, ", "), shown(got), hint(got, allowed));
 }
@@ -67,6 +68,14 @@ std::optional<double> number_of_text(std::string_view text) {
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
     return value;
+}
+
+std::optional<double> quotient_of_text(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    const auto above = number_of_text(text.substr(0, slash));
+    if (slash == std::string_view::npos || !above) return above;
+    const auto below = number_of_text(text.substr(slash + 1));
+    return below ? std::optional(*above / *below) : std::nullopt;
 }
 
 bool NumberRange::contains(double value) const {

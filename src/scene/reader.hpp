@@ -132,6 +132,12 @@ private:
 /// The number that a text is from its first to its last character, whatever the locale; nothing if it is none.
 std::optional<double> number_of_text(std::string_view text);
 
+/// The same, also of two such numbers with a slash between them: "1/60".
+std::optional<double> quotient_of_text(std::string_view text);
+
+/// "; did you mean 'x'?", or nothing where no word is near.
+std::string hint(std::string_view got, std::span<const std::string_view> words);
+
 /// "must be one of a, b, c, got 'x'", with the nearest of them if there is a likely one.
 std::string not_one_of(std::string_view got, std::span<const std::string_view> allowed);
 

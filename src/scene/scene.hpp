@@ -73,6 +73,7 @@ struct RunSettings {
 struct OutputSettings {
     double timeline_every = 0;   ///< s of the world's time between rows of timeline.csv; 0: a row per step
     double checkpoint_every = 0; ///< s of the world's time between checkpoints; 0: none but the one of Ctrl-C
+    double bodies_every = 0;     ///< s of the world's time between tables of all bodies; 0: none
     bool energy_plot = true;     ///< write energy.svg
     bool record_impacts = false; ///< write impacts.csv
     bool check_overlap = true;   ///< search for overlaps at the end of each step (outside the timed part)

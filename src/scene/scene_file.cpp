@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -23,9 +24,6 @@ namespace {
 
 /// 2^53: steps beyond it could not be told apart as numbers.
 constexpr double most_steps = 0x1p53;
-
-/// More threads than any machine has; a larger number is a slip of the pen.
-constexpr std::uint64_t max_threads = 4096;
 
 /// A power of two: a number, or a text like "2^-20".
 double read_resolution(const ValueReader& value) {
@@ -52,10 +50,7 @@ double read_resolution(const ValueReader& value) {
 double read_dt(const ValueReader& value) {
     if (!value.is_text()) return value.number(positive);
     const std::string text = value.text();
-    const std::size_t slash = text.find('/');
-    const auto above = number_of_text(std::string_view(text).substr(0, slash));
-    const auto below = slash == std::string::npos ? 1.0 : number_of_text(std::string_view(text).substr(slash + 1));
-    const double dt = above && below ? *above / *below : 0;
+    const double dt = quotient_of_text(text).value_or(0);
     if (!positive.contains(dt)) {
         value.fail(fmt::format("must be > 0 s: a number, or a text like \"1/60\", got '{}'", text.substr(0, 40)));
     }
@@ -144,6 +139,10 @@ void read_material_rules(TableReader& top, const std::vector<Material>& material
         MaterialRule rule;
         rule.a = static_cast<std::uint32_t>(pair[0].choice(names) + 1);
         rule.b = static_cast<std::uint32_t>(pair[1].choice(names) + 1);
+        for (const MaterialRule& other : scene.options.material_rules) {
+            if (std::minmax(other.a, other.b) == std::minmax(rule.a, rule.b))
+                pair[0].fail(fmt::format("has a rule with {} already", names[rule.b - 1]));
+        }
         const ValueReader restitution = table.need("restitution");
         rule.law = read_law(restitution);
         if (!rule.law) rule.restitution = restitution.number(zero_to_one);
@@ -167,7 +166,8 @@ void read_run(TableReader table, Scene& scene) {
         run.steps = steps->count(1, static_cast<std::uint64_t>(most_steps));
     }
     if (const auto precision = table.find("precision")) scene.options.precision = read_precision(*precision);
-    if (const auto threads = table.find("threads")) run.threads = static_cast<unsigned>(threads->count(0, max_threads));
+    if (const auto threads = table.find("threads"))
+        run.threads = static_cast<unsigned>(threads->count(0, most_threads));
     table.finish();
     scene.lines["run"] = table.line();
 }
@@ -176,6 +176,7 @@ void read_output(TableReader table, Scene& scene) {
     OutputSettings& outputs = scene.outputs;
     table.read("timeline_every", outputs.timeline_every, not_negative);
     table.read("checkpoint_every", outputs.checkpoint_every, not_negative);
+    table.read("bodies_every", outputs.bodies_every, positive);
     table.read("energy_plot", outputs.energy_plot);
     table.read("record_impacts", outputs.record_impacts);
     table.read("least_recorded_impulse", scene.options.least_recorded_impulse, not_negative);

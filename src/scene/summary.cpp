@@ -57,7 +57,8 @@ nlohmann::ordered_json to_json(const Summary& s) {
     json["contacts"] = s.contacts;
     json["energy_initial"] = s.start.total();
     json["energy_final"] = s.end.total();
-    json["energy_lost"] = s.end.lost - s.start.lost;
+    json["energy_lost"] = s.end.lost() - s.start.lost();
+    json["energy_balance"] = energy_balance(s.start, s.end);
     json["energy_drift"] = energy_drift(s.start, s.end);
     json["kinetic_initial"] = s.start.kinetic;
     json["kinetic_final"] = s.end.kinetic;
@@ -83,8 +84,8 @@ std::string to_text(const Summary& s) {
                    s.wall_seconds, s.ns_per_body_step);
     fmt::format_to(out, "  impacts   {} between bodies, {} with walls; {:.3g} a second; {} resting contacts\n",
                    grouped(s.pair_impacts), grouped(s.face_impacts), s.impacts_per_second, grouped(s.contacts));
-    fmt::format_to(out, "  energy    {:.6g} J, then {:.6g} J and {:.6g} J booked as lost: drift {:.2e}\n",
-                   s.start.total(), s.end.total(), s.end.lost - s.start.lost, energy_drift(s.start, s.end));
+    fmt::format_to(out, "  energy    {:.6g} J, then {:.6g} J and {:.6g} J booked as lost: balance {:.2e}\n",
+                   s.start.total(), s.end.total(), s.end.lost() - s.start.lost(), energy_balance(s.start, s.end));
     fmt::format_to(out, "  momentum  drift {:.2e}\n", momentum_drift(s.start, s.end));
     fmt::format_to(out, "  overlap   {}\n", overlap_text(s.overlap));
     fmt::format_to(out, "  memory    {} at most, {:.0f} bytes per body\n", memory_text(s.peak_rss_bytes),

@@ -71,12 +71,12 @@ Bounds::Bounds(const Region& region, const std::vector<Obstacle>& obstacles, con
     if (const auto* box = std::get_if<Box>(&region)) add_box(*box, resolution, origin);
     if (const auto* planes = std::get_if<std::vector<Plane>>(&region)) add_planes(*planes, resolution, origin);
     if (const auto* shell = std::get_if<Shell>(&region)) add_shell(*shell, resolution, origin);
+    first_obstacle_ = faces_of(region);
     if (obstacles.empty()) return;
     if (any_periodic()) {
         throw Error(ErrorCode::out_of_range, "obstacles", "must not stand in a region with periodic faces");
     }
     obstacles_ = std::make_shared<const Obstacles>(obstacles, resolution, origin);
-    first_obstacle_ = faces_of(region);
 }
 
 void Bounds::add_box(const Box& box, const Resolution& resolution, const Int3& origin) {

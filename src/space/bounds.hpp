@@ -89,6 +89,8 @@ public:
     [[nodiscard]] const Surface& surface(std::uint32_t wall) const {
         return is_facet(wall) ? obstacles_->surface(wall - first_facet()) : walls_[wall].surface;
     }
+    /// The number of the first obstacle in the public API: that of the region's faces.
+    [[nodiscard]] std::int32_t first_obstacle() const { return first_obstacle_; }
     /// The number of a wall, or of the obstacle of a facet, in the public API.
     [[nodiscard]] std::int32_t face(std::uint32_t wall) const {
         if (!is_facet(wall)) return walls_[wall].face;
@@ -161,7 +163,7 @@ private:
     Int3 high_{highest, highest, highest}; ///< units
     std::vector<Wall> walls_;
     std::shared_ptr<const Obstacles> obstacles_; ///< never changes: copies of a world share it
-    std::int32_t first_obstacle_ = 0;            ///< its number in the public API
+    std::int32_t first_obstacle_ = 0;
     std::array<std::int64_t, 3> period_{};
     Int3 period_start_{};
     double shell_radius_ = 0;

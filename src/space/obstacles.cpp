@@ -1,5 +1,6 @@
 #include "space/obstacles.hpp"
 
+#include "collision/triangle.hpp"
 #include "space/checks.hpp"
 
 #include <carom/collision.hpp>
@@ -44,12 +45,7 @@ void check_triangles(const Mesh& mesh, const std::string& name) {
                         k);
         }
         const auto& [a, b, c] = mesh.triangles[k];
-        const Vec3 ab = mesh.vertices[b] - mesh.vertices[a];
-        const Vec3 ac = mesh.vertices[c] - mesh.vertices[a];
-        // The normal of what is thinner has no good digit.
-        constexpr double thinnest = 1e-12;
-        const double longest = std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)});
-        if (length(cross(ab, ac)) > thinnest * longest) continue;
+        if (!detail::is_degenerate(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c])) continue;
         throw Error(ErrorCode::out_of_range, name + ".triangles", "must have corners that are not in one line", k);
     }
 }

@@ -49,6 +49,14 @@ void check_rules(const std::vector<MaterialRule>& rules) {
         if (rules[i].law) check_law(*rules[i].law, "material_rules.law", i);
         check_fraction(rules[i].restitution, "material_rules.restitution", i);
         check_not_negative(rules[i].friction, "material_rules.friction", i);
+        const auto is_same = [&](const MaterialRule& other) {
+            return std::minmax(other.a, other.b) == std::minmax(rules[i].a, rules[i].b);
+        };
+        if (std::none_of(rules.begin(), rules.begin() + static_cast<std::ptrdiff_t>(i), is_same)) continue;
+        throw Error(ErrorCode::out_of_range, "material_rules",
+                    "must have each pair once, got materials " + std::to_string(rules[i].a) + " and " +
+                        std::to_string(rules[i].b) + " again",
+                    i);
     }
 }
 
@@ -231,8 +239,8 @@ void Engine<Real>::set_serial_reference(bool serial_reference) {
 
 template <class Real>
 void Engine<Real>::set_threads(unsigned threads) {
-    setting_.options.threads = threads;
     set_executor(make_default_executor(threads));
+    setting_.options.threads = threads;
 }
 
 template <class Real>

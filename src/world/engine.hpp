@@ -57,7 +57,6 @@ public:
     [[nodiscard]] const Clock& clock() const noexcept { return clock_; }
     [[nodiscard]] const StepReport& report() const noexcept { return report_; }
     [[nodiscard]] std::span<const Impact> impacts() const noexcept { return impacts_; }
-    [[nodiscard]] std::span<const ContactChange> contact_changes() const noexcept { return contact_changes_; }
 
     // engine.cpp
     [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
@@ -77,6 +76,8 @@ public:
 
     // engine_contacts.cpp
     [[nodiscard]] std::vector<Contact> contacts() const;
+    [[nodiscard]] std::vector<double> face_forces() const;
+    [[nodiscard]] std::span<const ContactChange> contact_changes() const;
 
     // engine_sums.cpp
     [[nodiscard]] Energy energy() const;

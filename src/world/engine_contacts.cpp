@@ -1,4 +1,5 @@
 #include "contact/rest.hpp"
+#include "space/sum.hpp"
 #include "world/engine.hpp"
 
 #include <carom/collision.hpp>
@@ -92,6 +93,36 @@ std::vector<Contact> Engine<Real>::contacts() const {
     return contacts;
 }
 
+/// The same as the sum over contacts(), without their places and order.
+template <class Real>
+std::vector<double> Engine<Real>::face_forces() const {
+    const auto faces = static_cast<std::size_t>(state_.bounds.first_obstacle()) + setting_.options.obstacles.size();
+    std::vector<ExactSum> sums(faces);
+    const auto add = [&](std::int32_t face, double force) { sums[static_cast<std::size_t>(face)].add(force); };
+    for (const auto* forces : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
+        for (const ContactForce& force : *forces) {
+            const bool is_on_wall = (force.code & Support::wall_bit) != 0;
+            if (!is_on_wall || !leans(state_.bodies.kind[state_.bodies.slots[force.a]])) continue;
+            add(state_.bounds.face(force.code & ~Support::wall_bit), force.normal);
+        }
+    }
+    std::vector<Contact> held;
+    const std::vector<PointField> fields = placed_fields();
+    for (const auto& [slot, hold] : state_.bodies.holds) add_held(slot, hold, fields, held);
+    for (const Contact& contact : held) {
+        if (contact.face >= 0) add(contact.face, contact.force);
+    }
+    std::vector<double> forces(faces);
+    std::transform(sums.begin(), sums.end(), forces.begin(), [](const ExactSum& sum) { return sum.value(); });
+    return forces;
+}
+
+template <class Real>
+std::span<const ContactChange> Engine<Real>::contact_changes() const {
+    if (setting_.options.record_contacts) return contact_changes_;
+    throw Error(ErrorCode::not_available, "record_contacts", "must be true to tell changes of contacts, got false");
+}
+
 /// Whom a step finds in contact, in the order of contacts().
 template <class Real>
 void Engine<Real>::find_touching(std::vector<ContactChange>& touching) const {
@@ -130,6 +161,10 @@ template void Engine<double>::add_held(std::uint32_t, const Hold&, std::span<con
                                        std::vector<Contact>&) const;
 template std::vector<Contact> Engine<float>::contacts() const;
 template std::vector<Contact> Engine<double>::contacts() const;
+template std::vector<double> Engine<float>::face_forces() const;
+template std::vector<double> Engine<double>::face_forces() const;
+template std::span<const ContactChange> Engine<float>::contact_changes() const;
+template std::span<const ContactChange> Engine<double>::contact_changes() const;
 template void Engine<float>::find_touching(std::vector<ContactChange>&) const;
 template void Engine<double>::find_touching(std::vector<ContactChange>&) const;
 template void Engine<float>::note_contact_changes();

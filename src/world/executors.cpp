@@ -1,3 +1,4 @@
+#include <carom/base.hpp>
 #include <carom/executor.hpp>
 
 #include <algorithm>
@@ -5,6 +6,8 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -19,6 +22,10 @@ namespace carom {
 namespace {
 
 unsigned threads_or_cores(unsigned threads) {
+    if (threads > most_threads) {
+        throw Error(ErrorCode::out_of_range, "threads",
+                    "must be at most " + std::to_string(most_threads) + ", got " + std::to_string(threads));
+    }
     return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
@@ -65,6 +72,12 @@ public:
     explicit ThreadExecutor(unsigned threads) {
         try {
             for (unsigned k = 1; k < threads; ++k) helpers_.emplace_back([this] { help(); });
+        } catch (const std::system_error& error) {
+            const std::size_t started = helpers_.size() + 1;
+            dismiss();
+            throw Error(ErrorCode::not_available, "threads",
+                        "the system gives no more than " + std::to_string(started) + " of " + std::to_string(threads) +
+                            ": " + error.what());
         } catch (...) {
             dismiss();
             throw;

@@ -171,12 +171,16 @@ const StepReport& World::report() const noexcept {
     return std::visit([](const auto& engine) -> const StepReport& { return engine.report(); }, impl_->engine);
 }
 
-std::span<const ContactChange> World::contact_changes() const noexcept {
+std::span<const ContactChange> World::contact_changes() const {
     return impl_->pass([](const auto& engine) { return engine.contact_changes(); });
 }
 
 std::vector<Contact> World::contacts() const {
     return impl_->pass([](const auto& engine) { return engine.contacts(); });
+}
+
+std::vector<double> World::face_forces() const {
+    return impl_->pass([](const auto& engine) { return engine.face_forces(); });
 }
 
 std::span<const Impact> World::impacts() const noexcept {

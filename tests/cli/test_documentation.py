@@ -86,9 +86,10 @@ class Documentation(CliTest):
         self.assertEqual(json.loads(self.read("out", "summary.json")), run)
 
     def test_columns(self):
-        self.write("log.toml", (ROOT / "scenes/two_bodies.toml").read_text() + "\n[output]\nrecord_impacts = true\n")
+        self.write("log.toml", (ROOT / "scenes/two_bodies.toml").read_text() + "\n[output]\nrecord_impacts = true\nbodies_every = 1\n")
         self.carom("run", "log.toml", "--out", "out")
-        for name, heading in (("timeline.csv", "Timeline"), ("impacts.csv", "Impacts")):
+        for name, heading in (("timeline.csv", "Timeline"), ("impacts.csv", "Impacts"),
+                              ("bodies/000000.csv", "Bodies")):
             with open(self.folder / "out" / name, newline="", encoding="ascii") as file:
                 self.assertEqual(keys_of_table(heading), next(csv.reader(file)))
 

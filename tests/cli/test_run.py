@@ -14,7 +14,7 @@ from carom_cli import GAS, RAIN, CliTest
 WHOLE_NUMBERS = ("bodies", "steps", "threads", "impacts", "contacts", "bodies_outside", "peak_rss_bytes",
                  "pair_impacts", "face_impacts", "resumed_from_step")
 NUMBERS = ("dt", "wall_seconds", "ns_per_body_step", "ns_per_body_step_min", "impacts_per_second", "energy_initial",
-           "energy_final", "energy_lost", "energy_drift", "kinetic_initial", "kinetic_final", "momentum_drift",
+           "energy_final", "energy_lost", "energy_balance", "energy_drift", "kinetic_initial", "kinetic_final", "momentum_drift",
            "max_overlap", "mean_overlap", "bytes_per_body", "time")
 TEXTS = ("scene", "precision", "simd", "hash")
 COLUMNS = ["time", "step", "kinetic", "potential", "total", "lost", "momentum_x", "momentum_y", "momentum_z",
@@ -31,6 +31,10 @@ class Run(CliTest):
         with open(self.folder.joinpath(*folder, "timeline.csv"), newline="", encoding="ascii") as file:
             rows = list(csv.reader(file))
         return rows[0], [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
+
+    def table(self, *file):
+        with open(self.folder.joinpath(*file), newline="", encoding="ascii") as table:
+            return list(csv.DictReader(table))
 
     def test_json_keys_and_types(self):
         summary = self.json("run", "rain.toml", "--out", "out")
@@ -105,6 +109,17 @@ every = 0.1
         self.carom("run", "gas.toml", "--out", "out")
         self.assertNotIn("observations.csv", self.files("out"))
 
+    def test_a_floor_weighs_what_lies_on_it(self):
+        heap = RAIN.replace("max = [9, 9, 9]", "max = [3, 3, 9]").replace("radius = 0.2", "radius = 0.4")
+        self.write("heap.toml", heap + '[[observe]]\nkind = "impacts"\nfrom = 5\n')
+        self.carom("run", "heap.toml", "--out", "out", "--time", 8)
+        self.carom("run", "heap.toml", "--out", "parts", "--time", 6)
+        self.carom("run", "heap.toml", "--out", "parts", "--time", 8, "--resume", "parts/checkpoint.carom")
+        self.assertEqual(self.read("parts", "observations.csv"), self.read("out", "observations.csv"))
+        forces = [float(row["value"]) for row in self.table("out", "observations.csv")
+                  if row["quantity"] == "face_force"]
+        self.assertAlmostEqual(forces[4], 40 * 2 * 9.81, delta=1e-3 * 40 * 2 * 9.81)
+
     def test_summary_for_people(self):
         out, err = self.carom("run", "gas.toml", "--out", "out")
         self.assertEqual(err, "")
@@ -155,6 +170,56 @@ every = 0.1
         for row in rows:
             self.assertEqual(bool(row["b"]), not row["face"])
             self.assertGreater(float(row["approach_speed"]), 0)
+
+    def test_bodies_where_the_scene_asks_for_them(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.25\n")
+        self.carom("run", "tables.toml", "--out", "out", "--time", 1.1)
+        self.assertEqual(self.files("out", "bodies"), [f"{number:06}.csv" for number in range(5)])
+        for number in range(5):
+            rows = self.table("out", "bodies", f"{number:06}.csv")
+            self.assertEqual(list(rows[0]), ["time", "id", "x", "y", "z", "vx", "vy", "vz", "mass", "radius",
+                                             "restitution", "friction", "growth"])
+            self.assertEqual([int(row["id"]) for row in rows], list(range(40)))
+            for row in rows:
+                self.assertAlmostEqual(float(row["time"]), 0.25 * number, delta=1e-12)
+                self.assertEqual((row["mass"], row["radius"], row["restitution"]), ("2", "0.2", "0.5"))
+        # The same numbers as the run had: the kinetic energy of the timeline.
+        _, timeline = self.timeline("out")
+        kinetic = sum(float(row["mass"]) * sum(float(row[v]) ** 2 for v in ("vx", "vy", "vz")) / 2 for row in rows)
+        self.assertAlmostEqual(kinetic, timeline[100]["kinetic"], delta=1e-12 * kinetic)
+
+        self.carom("run", "tables.toml", "--out", "out", "--time", 0.3)
+        self.assertEqual(self.files("out", "bodies"), ["000000.csv", "000001.csv"], "those of a longer run were left")
+        self.carom("run", "rain.toml", "--out", "out", "--time", 0.1)
+        self.assertNotIn("bodies", self.files("out"))
+
+    def test_a_table_of_bodies_is_a_start(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.25\n")
+        self.carom("run", "tables.toml", "--out", "out", "--time", 0.25)
+        generator = RAIN.partition("generator")[2]
+        self.write("again.toml", RAIN.replace("generator" + generator, 'generator = "csv"\n'
+                                              'file = "out/bodies/000001.csv"\n[output]\nbodies_every = 0.25\n'))
+        self.carom("run", "again.toml", "--out", "again", "--time", 0.25)
+        then, now = self.table("out", "bodies", "000001.csv"), self.table("again", "bodies", "000000.csv")
+        for row in [*then, *now]:
+            del row["time"]
+        self.assertEqual(then, now)
+
+    def test_tables_of_bodies_of_a_resumed_run(self):
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.05\n")
+        self.carom("run", "tables.toml", "--out", "whole", "--time", 1)
+        self.carom("run", "tables.toml", "--out", "parts", "--steps", 33)
+        resume = ("--resume", "parts/checkpoint.carom")
+        message = self.refused("run", "tables.toml", "--out", "elsewhere", "--time", 1, *resume)
+        self.assertIn("elsewhere/bodies/000000.csv, which is missing", message)
+        self.carom("run", "tables.toml", "--out", "parts", "--time", 1, *resume)
+        self.assertEqual(self.files("whole", "bodies"), [f"{number:06}.csv" for number in range(21)])
+        self.assertEqual(self.files("parts", "bodies"), self.files("whole", "bodies"))
+        for name in self.files("whole", "bodies"):
+            self.assertEqual(self.read("parts", "bodies", name), self.read("whole", "bodies", name), name)
+        self.write("tables.toml", RAIN + "[output]\nbodies_every = 0.1\n")
+        self.assertIn("its run wrote other outputs",
+                      self.refused("run", "tables.toml", "--out", "parts", "--time", 2, *resume))
 
     def test_overlap_search_can_be_left_out(self):
         self.write("quick.toml", GAS + "[output]\ncheck_overlap = false\n")

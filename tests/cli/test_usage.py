@@ -31,6 +31,8 @@ class Usage(CliTest):
             self.assertIn("--help", self.refused(*arguments), arguments)
         for arguments in ([], ["fly"]):
             self.assertIn("a command is required: run, bench, validate, view, render, info or diff", self.refused(*arguments))
+        self.assertIn("or diff, not 'rn'; did you mean 'run'?", self.refused("rn", "gas.toml"))
+        self.assertIn("or diff, not 'fly'\n", self.refused("fly"))
 
     def test_unknown_options(self):
         self.assertIn("--bodies", self.refused_run("--bodies", 3))
@@ -38,7 +40,7 @@ class Usage(CliTest):
 
     def test_numbers_of_run(self):
         for option in ("--time", "--dt", "--checkpoint-every"):
-            for value in ("0", "-1", "nan", "inf", "1e999", "", "ten", "1s", "0x10"):
+            for value in ("0", "-1", "nan", "inf", "1e999", "", "ten", "1s", "0x10", "1/0", "0/1", "1/", "/60", "1/60/2", "-1/60"):
                 message = self.refused_run(option, value)
                 self.assertIn(option, message)
                 self.assertIn("greater than 0", message)
@@ -50,6 +52,10 @@ class Usage(CliTest):
             self.assertIn("--threads must be a whole number from 0 to 4096", self.refused_run("--threads", value))
         for value in ("half", "Single", ""):
             self.assertIn("single or double", self.refused_run("--precision", value))
+
+    def test_quotients(self):
+        self.assertEqual(self.json("run", "gas.toml", "--dt", "1/50", "--time", "1/2")["steps"], 25)
+        self.assertEqual(self.json("run", "gas.toml", "--dt", "1/60", "--steps", 1)["dt"], 1 / 60)
 
     def test_too_many_steps(self):
         self.assertIn("2^53", self.refused_run("--time", "1e300"))

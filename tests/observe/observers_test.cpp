@@ -88,6 +88,50 @@ TEST(Observers, ObstaclesBearTheMomentumLeftThere) {
     EXPECT_EQ(impacts.face_force(4).value, 0);
 }
 
+/// 60 balls of 2 kg that fall into a box of smooth walls, and stay.
+World falling_balls(bool serial) {
+    World world({.gravity = {0, 0, -9.81}, .region = Box{{0, 0, 0}, {4, 4, 30}}, .serial_reference = serial});
+    for (int k = 0; k < 60; ++k) {
+        const int row = k / 3 % 3;
+        const int layer = k / 9;
+        world.add({.position = {0.7 + 1.2 * (k % 3), 0.7 + 1.2 * row + 0.02 * (k % 5), 0.7 + 1.2 * layer},
+                   .mass = 2,
+                   .restitution = 0.5});
+    }
+    return world;
+}
+
+// Neither at the start nor at the end do they move: the floor has given, all in all, the momentum that gravity took.
+TEST(Observers, AFloorWeighsWhatFallsOnItAndLies) {
+    constexpr double weight = 60 * 2 * 9.81;
+    const auto run = [](World& world, ImpactStatistics& impacts, double until) {
+        while (world.time() < until) {
+            world.step(1.0 / 60);
+            impacts.observe(world);
+        }
+        return impacts.face_force(4);
+    };
+    std::vector<Estimate> found;
+    for (const bool serial : {false, true}) {
+        World world = falling_balls(serial);
+        ImpactStatistics landing(world);
+        found.push_back(run(world, landing, 6));
+        EXPECT_GT(world.report().contacts, 100U);
+        EXPECT_NEAR(found.back().value, weight, 3 * found.back().standard_error);
+        EXPECT_LT(found.back().standard_error, 0.06 * weight);
+        World loaded = World::load(world.save());
+        for (World* resumed : {&world, &loaded}) {
+            ImpactStatistics lying(*resumed);
+            found.push_back(run(*resumed, lying, 8));
+            // They still creep, at less than 1e-3 m/s: that is the change of momentum of 2 s.
+            EXPECT_NEAR(found.back().value, weight, 60 * 2 * 1e-3 / 2);
+            EXPECT_EQ(lying.face_force(5).value, 0);
+        }
+        EXPECT_EQ(found.end()[-1].value, found.end()[-2].value);
+    }
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(found[i].value, found[i + 3].value);
+}
+
 TEST(Observers, EnergiesAndMomentum) {
     World world({.gravity = {0, 0, -10}});
     world.add({.position = {0, 0, 3}, .velocity = {2, 0, 0}, .mass = 4});
@@ -267,6 +311,31 @@ TEST(Observers, RefuseWhatIsNoNumberOrNoRange) {
     expect_refused([] { Coordination(-0.125); }, out_of_range, "gap", "-0.125");
     expect_refused([] { Correlations(0, 1); }, out_of_range, "most_lag", "0");
     expect_refused([] { Correlations(1, 0); }, out_of_range, "origin_every", "0");
+}
+
+TEST(Observers, RefusePlacesThatTheyDoNotHave) {
+    World world({.region = cube(10, FaceKind::periodic)});
+    world.add({.position = {4, 5, 5}, .velocity = {1, 0, 0}});
+    ImpactStatistics impacts(world);
+    using enum ErrorCode;
+    expect_refused([] { (void)Energies().momentum(3); }, out_of_range, "axis", "less than 3, got 3");
+    expect_refused([&] { (void)impacts.virial_rate(3); }, out_of_range, "axis", "less than 3, got 3");
+    expect_refused([] { (void)Speeds(1, 5).density(5); }, out_of_range, "bin", "less than 5, got 5");
+    for (const std::size_t power : {0U, 5U}) {
+        expect_refused([&] { (void)Speeds(1, 5).moment(power); }, out_of_range, "power", std::to_string(power));
+    }
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).density(2); }, out_of_range, "slice", "less than 2, got 2");
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).temperature(2); }, out_of_range, "slice", "2");
+    expect_refused([] { (void)Profile(0, 0, 1, 2, 1).velocity(2, 0); }, out_of_range, "slice", "2");
+    expect_refused([] { (void)RadialDistribution(1, 4).g(9); }, out_of_range, "shell", "9");
+    expect_refused([] { (void)Coordination(0).share(17); }, out_of_range, "contacts", "17");
+    const Correlations correlations(2, 1);
+    expect_refused([&] { (void)correlations.time(3); }, out_of_range, "lag", "3");
+    expect_refused([&] { (void)correlations.squared_displacement(3); }, out_of_range, "lag", "3");
+    expect_refused([&] { (void)correlations.velocity_correlation(3); }, out_of_range, "lag", "3");
+    world.add({.position = {6, 5, 5}, .velocity = {-1, 0, 0}});
+    world.step(2);
+    expect_refused([&] { impacts.observe(world); }, out_of_range, "body", "less than 1, got 1");
 }
 
 TEST(Observers, RefuseWorldsThatDoNotHaveWhatTheyNeed) {

@@ -316,6 +316,9 @@ void expect_at_rest(const World& world, double weight, const std::string& where)
         EXPECT_LT(length(world.get(id).velocity), 1e-3) << where;
     }
     EXPECT_LT(length(force_on(world, 0) - Vec3{0, 0, -weight}), 1e-3 * weight) << where;
+    double along_normals = 0;
+    for (const Contact& c : world.contacts()) along_normals += c.face == 0 ? c.force : 0;
+    EXPECT_NEAR(world.face_forces().at(0), along_normals, 1e-12 * weight) << where;
 }
 
 TEST(Obstacles, BallsComeToRestOnThemAndAreCarried) {

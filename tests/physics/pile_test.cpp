@@ -137,6 +137,7 @@ TEST(Sleep, AHeapFallsAsleepWhereItLiesAndBearsItsWeight) {
         if (contact.face == 4) weight += contact.force;
     }
     EXPECT_NEAR(weight, 160 * g, 1e-3 * 160 * g);
+    EXPECT_NEAR(world.face_forces().at(4), weight, 1e-12 * weight);
     const carom::Ledger& ledger = world.ledger();
     EXPECT_NEAR(world.energy().total() + ledger.lost_to_restitution + ledger.lost_to_friction, start, 1e-9 * start);
     EXPECT_NEAR(ledger.outer_impulse.z, 0, 1e-9 * 160 * g * world.time());

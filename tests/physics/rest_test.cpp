@@ -54,14 +54,18 @@ TEST(Rest, SupportsGiveWhatPressesABody) {
     const std::vector<carom::Contact> contacts = world.contacts();
     ASSERT_EQ(contacts.size(), 3U);
     constexpr std::array<double, 3> expected{6, 8, 2 * g};
-    constexpr std::array<int, 3> faces{0, 3, 4};
+    constexpr std::array<std::uint32_t, 3> faces{0, 3, 4};
     for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(contacts[k].face, faces.at(k));
+        EXPECT_EQ(contacts[k].face, static_cast<std::int32_t>(faces.at(k)));
         EXPECT_FALSE(contacts[k].b.is_set());
         EXPECT_NEAR(contacts[k].force, expected.at(k), 1e-9);
         EXPECT_EQ(contacts[k].friction, Vec3{});
     }
     EXPECT_NEAR(length(contacts[2].position - Vec3{0.5, 9.5, 0}), 0, 1e-9);
+    const std::vector<double> forces = world.face_forces();
+    ASSERT_EQ(forces.size(), 6U);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(forces.at(faces.at(k)), contacts[k].force);
+    EXPECT_EQ(forces[1], 0);
 }
 
 TEST(Rest, AFrictionlessBodySlidesOnForEver) {

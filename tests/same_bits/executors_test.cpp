@@ -10,6 +10,7 @@
 #include <atomic>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -32,6 +33,23 @@ TEST(Executors, RunEachPartOnce) {
             EXPECT_EQ(runs, std::vector<int>(parts, 1));
         }
     }
+}
+
+TEST(Executors, TooManyThreadsAreRefused) {
+    for (const auto make : {carom::make_default_executor, carom::make_thread_executor}) {
+        for (const unsigned threads : {4097U, 1'000'000U}) {
+            try {
+                make(threads);
+                ADD_FAILURE() << threads << " were not refused";
+            } catch (const carom::Error& error) {
+                EXPECT_EQ(error.code(), carom::ErrorCode::out_of_range);
+                EXPECT_EQ(error.what(), "threads: must be at most 4096, got " + std::to_string(threads));
+            }
+        }
+    }
+    World world({.threads = 2});
+    EXPECT_THROW(world.set_threads(5000), carom::Error);
+    EXPECT_EQ(world.options().threads, 2U);
 }
 
 TEST(Executors, ThrowOnceNoPartRunsAnyMore) {

@@ -27,6 +27,18 @@ between = ["ice", "ise"]
 restitution = 1
 )",
      "s.toml:4: material_rule[0].between[1]: must be one of ice, got 'ise'; did you mean 'ice'?", ""},
+    {R"([[material]]
+name = "ice"
+[[material]]
+name = "iron"
+[[material_rule]]
+between = ["ice", "iron"]
+restitution = 0.5
+[[material_rule]]
+between = ["iron", "ice"]
+restitution = 0.6
+)",
+     "s.toml:9: material_rule[1].between[0]: has a rule with ice already", ""},
     {R"([[material_rule]]
 between = ["ice", "ice"]
 restitution = 1

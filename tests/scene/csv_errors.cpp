@@ -54,6 +54,25 @@ TEST(Csv, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(bodies.given, (std::vector<std::string>{"x", "y", "z", "radius"}));
 }
 
+/// Bodies of a world as a table, and a world of them again: the table tells of the same bits.
+TEST(Csv, ReadsBackTheBodiesOfAWorld) {
+    World world({.gravity = {0, 0, -9.81}});
+    world.add({.position = {0.1, -2, 1e5}, .velocity = {1.0 / 3, 0, -1e-7}, .mass = 0.3, .growth = 0.01});
+    world.add({.position = {5, 5, 5}, .mass = infinite_mass, .radius = 0, .restitution = 0.7, .friction = 0.2});
+    world.step(0.1);
+    const std::string text = to_csv(world);
+    const CsvBodies bodies = parse_csv(text, "b.csv", 2);
+    EXPECT_EQ(bodies.given.size(), 11U);
+    World again;
+    again.add(bodies.table.columns());
+    again.step(0.1); // only for the time that the table tells
+    again.set(again.ids(), bodies.table.columns());
+    EXPECT_EQ(to_csv(again), text);
+    EXPECT_EQ(text.substr(0, text.find('\n')), "time,id,x,y,z,vx,vy,vz,mass,radius,restitution,friction,growth");
+    EXPECT_EQ(refusal([&] { parse_csv("x,y,z,id,id\n1,2,3,4,5\n", "b.csv", 2); }),
+              "b.csv:1: column 'id': is there twice");
+}
+
 TEST(CsvErrors, WhatIsGivenTwice) {
     const TemporaryFolder folder;
     (void)folder.write("b.csv", "x,y,z,mass,vy\n1,2,3,4,5\n");

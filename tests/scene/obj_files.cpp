@@ -35,6 +35,9 @@ const std::vector<ObjMistake> obj_mistakes{
     {"v 0 0 0\nf 1 1 /3\n", "m.obj:2: f: must name vertices above it, 1 to 1 or -1 to -1, got '/3'"},
     {"v 0 0 0\nf 1 1 99999999999999999999\n",
      "m.obj:2: f: must name vertices above it, 1 to 1 or -1 to -1, got '99999999999999999999'"},
+    {"v 0 0 0\nv 1 0 0\nv 3 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3 4\n",
+     "m.obj:6: f: must have corners that are not in one line, got vertices 1, 2 and 3"},
+    {"v 0 0 0\nv 1 1 0\nf 1 2 1\n", "m.obj:3: f: must have corners that are not in one line, got vertices 1, 2 and 1"},
     {"curv 1\n", "m.obj:1: curv: is no line of an OBJ file that carom knows: v and f count, comments are passed over"},
 };
 
@@ -68,9 +71,9 @@ TEST(Obj, IsFoundBesideTheSceneAndPlaced) {
 
 TEST(Obj, WhatTheWorldRefusesIsNamedWithItsLine) {
     const TemporaryFolder folder;
-    (void)folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n");
+    (void)folder.write("m.obj", "v 0 0 0\nv 1e-11 0 0\nv 0 1 0\nf 1 2 3\n");
     const auto file = folder.write("s.toml", "[[obstacle]]\nkind = \"cone\"\nheight = 1\nradius = 1\n"
-                                             "[[obstacle]]\nkind = \"mesh\"\nfile = \"m.obj\"\n");
+                                             "[[obstacle]]\nkind = \"mesh\"\nfile = \"m.obj\"\noffset = [1e6, 0, 0]\n");
     EXPECT_EQ(refusal([&] { make_world(load_scene(file)); }),
               file.string() + ":5: obstacle[1].triangles: must have corners that are not in one line");
 }

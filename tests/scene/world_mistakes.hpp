@@ -26,6 +26,10 @@ gravity = [0, 0, -9.81
 )",
      "s.toml:1: titel: unknown key; did you mean 'title'?; allowed here: ",
      "attractor, bodies, camera, material, material_rule, observe, obstacle, output, picture, region, run, seed, title, world"},
+    {R"([[body]]
+position = [0, 0, 0]
+)",
+     "s.toml:1: body: unknown key; did you mean 'bodies'?; allowed here: ", ""},
     {R"(
 [wrold]
 )",
@@ -164,6 +168,14 @@ precison = "double"
 timeline_every = -1
 )",
      "s.toml:2: output.timeline_every: must be >= 0", ""},
+    {R"([output]
+bodies_every = 0
+)",
+     "s.toml:2: output.bodies_every: must be > 0 and finite, got 0", ""},
+    {R"([output]
+bodies_every = inf
+)",
+     "s.toml:2: output.bodies_every: must be > 0 and finite, got inf", ""},
     {R"([output]
 plot = true
 )",

@@ -39,6 +39,7 @@ RunProgress progress(const World& world) {
     progress.contacts = 1;
     for (std::uint64_t step = 0; step < 4; ++step) progress.rows.push_back(scene::timeline_row(world, step));
     progress.impact_log = "1,2,3\n";
+    progress.frames = 7;
     return progress;
 }
 
@@ -70,6 +71,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
     EXPECT_EQ(loaded.progress.contacts, 1U);
     EXPECT_EQ(loaded.progress.rows, before.rows);
     EXPECT_EQ(loaded.progress.impact_log, before.impact_log);
+    EXPECT_EQ(loaded.progress.frames, 7U);
     EXPECT_EQ(loaded.progress.start.momentum_scale, before.start.momentum_scale);
     EXPECT_EQ(loaded.world.hash(), world.hash());
     for (int i = 0; i < 200; ++i) {
@@ -111,8 +113,8 @@ TEST(Checkpoint, ForeignFilesAndVersionsAreNamed) {
     const std::string text = "# a scene, not a checkpoint, and longer than the head of one is\n";
     EXPECT_NE(message_of(std::as_bytes(std::span(text))).find("no checkpoint"), std::string::npos);
     std::vector<std::byte> newer = bytes_of_small_run();
-    newer[8] = std::byte{3};
-    EXPECT_NE(message_of(newer).find("version 3"), std::string::npos);
+    newer[8] = std::byte{4};
+    EXPECT_NE(message_of(newer).find("version 4"), std::string::npos);
 }
 
 TEST(RunIdentity, NamesWhatDiffers) {

@@ -105,6 +105,7 @@ TEST_F(Observations, AreThoseOfTheLibrary) {
         correlations.observe(sample);
     }
     lines_ = lines_of(to_csv(observations));
+    EXPECT_EQ(lines_.at({"energies", "samples", ""}).first, "31"); // of steps 50, 55 ... 200
     expect("energies", "kinetic", "", energies.kinetic());
     expect("energies", "potential", "", energies.potential());
     expect("energies", "total", "", energies.total());
@@ -181,7 +182,7 @@ TEST_F(Observations, AreRestoredOnlyToTheirLikes) {
     }
 }
 
-TEST_F(Observations, WhatWasNotSeenIsNotSaid) {
+TEST_F(Observations, WhoHasSeenNothingSaysSo) {
     const Scene scene = parse_scene(gas(27, 8, "from = 100\n"), "s.toml");
     std::vector<Observation> observations = scene.observations;
     World world = make_world(scene);
@@ -189,7 +190,10 @@ TEST_F(Observations, WhatWasNotSeenIsNotSaid) {
         world.step(scene.run.dt);
         observe(observations, world, step);
     }
-    EXPECT_EQ(to_csv(observations), "observer,quantity,unit,at,value,standard_error\n");
+    std::string expected = "observer,quantity,unit,at,value,standard_error\n";
+    for (const Observation& observation : observations) expected += observation.name + ",samples,1,,0,\n";
+    EXPECT_EQ(to_csv(observations), expected);
+    EXPECT_EQ(observations.size(), 8U);
 }
 
 TEST_F(Observations, OneSampleHasNoError) {

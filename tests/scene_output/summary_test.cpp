@@ -24,7 +24,7 @@ scene::Summary example() {
     summary.face_impacts = 12;
     summary.impacts_per_second = 21;
     summary.start.kinetic = 10;
-    summary.end = {.kinetic = 7, .potential = 1, .lost = 2.5};
+    summary.end = {.kinetic = 7, .potential = 1, .dissipated = 3, .work = 0.5};
     summary.overlap = scene::OverlapReport{.largest = 1e-12, .mean = 1e-13, .touching = 4, .bodies_outside = 1};
     summary.peak_rss_bytes = 1 << 20;
     summary.bytes_per_body = 180.25;
@@ -39,8 +39,8 @@ TEST(Summary, HasEveryKeyOfTheContract) {
         EXPECT_TRUE(json[key].is_number_unsigned()) << key;
     }
     for (const char* key : {"dt", "wall_seconds", "ns_per_body_step", "ns_per_body_step_min", "impacts_per_second",
-                            "energy_initial", "energy_final", "energy_drift", "kinetic_initial", "kinetic_final",
-                            "momentum_drift", "max_overlap", "mean_overlap", "bytes_per_body"}) {
+                            "energy_initial", "energy_final", "energy_balance", "energy_drift", "kinetic_initial",
+                            "kinetic_final", "momentum_drift", "max_overlap", "mean_overlap", "bytes_per_body"}) {
         ASSERT_TRUE(json.contains(key)) << key;
         EXPECT_TRUE(json[key].is_number_float()) << key;
     }
@@ -55,6 +55,8 @@ TEST(Summary, FiguresStandUnderTheirKeys) {
     EXPECT_EQ(json["impacts"], 42);
     EXPECT_EQ(json["energy_initial"], 10.0);
     EXPECT_EQ(json["energy_final"], 8.0);
+    EXPECT_EQ(json["energy_lost"], 2.5);
+    EXPECT_EQ(json["energy_balance"], 0.05);
     EXPECT_EQ(json["energy_drift"], 0.05);
     EXPECT_EQ(json["max_overlap"], 1e-12);
     EXPECT_EQ(json["bodies_outside"], 1);

@@ -306,6 +306,13 @@ TEST_P(BadInput, InterpolatedPositions) {
                    [](World& world) { world.positions_at(0, {}, {}); });
 }
 
+TEST_P(BadInput, ChangesOfContactsThatAreNotRecorded) {
+    expect_refused(world_, {ErrorCode::not_available, "record_contacts"}, "not asked for",
+                   [](World& world) { (void)world.contact_changes(); });
+    const World recording({.precision = GetParam(), .record_contacts = true});
+    EXPECT_TRUE(recording.contact_changes().empty());
+}
+
 TEST_P(BadInput, Surroundings) {
     const auto refuse = [&](const Refusal& refusal, const std::function<void(World&)>& call) {
         expect_refused(world_, refusal, refusal.field, call);
@@ -485,6 +492,9 @@ TEST(BadOptions, OutsideTheWorld) {
 TEST(BadOptions, TheRest) {
     expect_no_world({ErrorCode::out_of_range, "materials.key", 1}, {.materials = {{.key = 7}, {.key = 7}}}, 7);
     expect_no_world({ErrorCode::out_of_range, "precision"}, {.precision = static_cast<Precision>(2)}, 2);
+    expect_no_world({ErrorCode::out_of_range, "material_rules", 2},
+                    {.material_rules = {{.a = 1, .b = 2}, {.a = 2, .b = 2}, {.a = 2, .b = 1}}}, 1);
+    expect_no_world({ErrorCode::out_of_range, "threads"}, {.threads = 4097}, 4097);
     for (const std::uint32_t windows : {0U, 1'000'001U}) {
         expect_no_world({ErrorCode::out_of_range, "min_windows"}, {.min_windows = windows}, windows);
     }
