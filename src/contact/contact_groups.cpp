@@ -239,28 +239,21 @@ HWY_INLINE HWY_ATTR auto not_negative(D lanes, hn::Vec<D> v) {
     return hn::IfThenElseZero(hn::Gt(v, hn::Zero(lanes)), v);
 }
 
+/// What friction can do of what is wanted.
 template <class D>
-struct Rub {
-    Vectors<D> impulse;
-    Vectors<D> change;
-};
-
-/// Brakes the sliding of b on a, as far as friction can, and adds the energies that it took to `losses`.
-template <class D>
-HWY_INLINE HWY_ATTR Rub<D> rub(D lanes, const Vectors<D>& before, const Vectors<D>& sliding, hn::Vec<D> mass,
-                               hn::Vec<D> most, double& losses) {
+HWY_INLINE HWY_ATTR Vectors<D> at_most(D lanes, const Vectors<D>& wanted, hn::Vec<D> most) {
     const auto one = hn::Set(lanes, Number<D>{1});
-    const auto wanted = before - scaled(sliding, mass);
     const auto size = hn::Sqrt(dot(wanted, wanted));
     const auto slips = hn::Gt(size, most);
-    const auto part = hn::IfThenElse(slips, hn::Div(most, hn::IfThenElse(slips, size, one)), one);
-    const auto after = scaled(wanted, part);
-    const auto change = after - before;
-    const auto half_speed = hn::Div(hn::Set(lanes, Number<D>{0.5}), mass);
+    return scaled(wanted, hn::IfThenElse(slips, hn::Div(most, hn::IfThenElse(slips, size, one)), one));
+}
+
+/// Adds the energies, J, that friction takes of what slides to `losses`: one by one, whatever the vector's size.
+template <class D>
+HWY_INLINE HWY_ATTR void add_losses(D lanes, const Vectors<D>& friction, const Vectors<D>& sliding, double& losses) {
     HWY_ALIGN std::array<Number<D>, group_size> taken{};
-    hn::StoreU(hn::Neg(dot(change, sliding + scaled(change, half_speed))), lanes, taken.data());
+    hn::StoreU(hn::Neg(dot(friction, sliding)), lanes, taken.data());
     for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) losses += static_cast<double>(taken[k]);
-    return {after, change};
 }
 
 /// Calls f(group, lane) for the lanes of all groups, as many at once as a vector has.
@@ -271,13 +264,21 @@ HWY_INLINE HWY_ATTR void for_each_vector(D lanes, const ContactRun<Number<D>>& r
     }
 }
 
+/// What a contact gave way to, and bears nothing, it does not get back.
+template <class D>
+HWY_INLINE HWY_ATTR void store_gap(D lanes, hn::Vec<D> gap, ContactGroup<Number<D>>& group, std::size_t lane) {
+    store(lanes, gap, group.gap, lane);
+    const auto plastic = load(lanes, group.plastic, lane);
+    store(lanes, not_negative(lanes, hn::Min(plastic, hn::Neg(gap))), group.plastic, lane);
+}
+
 template <class Real>
 HWY_ATTR void measure(const ContactRun<Real>& run) {
     const hn::CappedTag<Real, group_size> lanes;
     for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
         const auto sight = look(lanes, run, group, lane);
         store(lanes, sight.normal, group.normal, lane);
-        store(lanes, sight.gap, group.gap, lane);
+        store_gap(lanes, sight.gap, group, lane);
     });
 }
 
@@ -300,6 +301,7 @@ HWY_ATTR double solve_softly(const ContactRun<Real>& run, const Softness<Real>& 
     const auto mass_part = hn::Set(lanes, softness.mass);
     const auto impulse_part = hn::Set(lanes, softness.impulse);
     const auto frequency = hn::Set(lanes, softness.frequency);
+    const auto stick = hn::Set(lanes, softness.stick);
     double losses = 0;
     for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
         const auto a = load_side(lanes, run.movers, group.a, lane);
@@ -312,17 +314,27 @@ HWY_ATTR double solve_softly(const ContactRun<Real>& run, const Softness<Real>& 
         const auto parting = dot(slip, normal);
         // As fast as they just do not touch at the end of the piece; or what the overlap asks for.
         const auto is_apart = hn::Gt(gap, zero);
-        const auto wanted = hn::Mul(mass, hn::Add(parting, hn::Mul(hn::IfThenElse(is_apart, frequency, rate), gap)));
+        const auto overlap = hn::Min(hn::Add(gap, load(lanes, group.plastic, lane)), zero);
+        const auto undone = hn::IfThenElse(is_apart, hn::Mul(frequency, gap), hn::Mul(rate, overlap));
+        const auto wanted = hn::Mul(mass, hn::Add(parting, undone));
         const auto softened = hn::Add(hn::Mul(wanted, mass_part), hn::Mul(before, impulse_part));
         const auto after = not_negative(lanes, hn::Sub(before, hn::IfThenElse(is_apart, wanted, softened)));
         store(lanes, after, group.impulse, lane);
         auto impulse = scaled(normal, hn::Sub(after, before));
         if (run.rubs) {
+            // What the damper of the piece before gave is given back.
+            const auto former = load(lanes, group.rub, lane);
+            const auto sprung = load(lanes, group.sprung, lane);
+            const auto inverse = hn::Div(hn::Set(lanes, Real{1}), mass);
+            const auto sliding = slip - scaled(normal, parting);
+            const auto undamped = sliding + scaled(sprung - former, inverse);
             const auto most = hn::Mul(load(lanes, group.friction, lane), after);
-            const auto rubbed =
-                rub(lanes, load(lanes, group.rub, lane), slip - scaled(normal, parting), mass, most, losses);
-            store(lanes, rubbed.impulse, group.rub, lane);
-            impulse = impulse + rubbed.change;
+            const auto rub = at_most(lanes, sprung - scaled(undamped, hn::Mul(mass, stick)), most);
+            const auto change = rub - former;
+            store(lanes, rub, group.rub, lane);
+            store(lanes, rub, group.sprung, lane);
+            add_losses(lanes, rub, sliding + scaled(change, inverse), losses);
+            impulse = impulse + change;
         }
         push(lanes, run, group, lane, a, b, impulse);
     });
@@ -349,11 +361,10 @@ HWY_INLINE HWY_ATTR void note_pressing(D lanes, const ContactRun<Number<D>>& run
 }
 
 template <class Real>
-HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces) {
+HWY_ATTR void solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces) {
     const hn::CappedTag<Real, group_size> lanes;
     const auto zero = hn::Zero(lanes);
     const auto frequency = hn::Set(lanes, frequency_of_pieces);
-    double losses = 0;
     for_each_vector(lanes, run, [&](ContactGroup<Real>& group, std::size_t lane) HWY_ATTR {
         const auto a = load_side(lanes, run.movers, group.a, lane);
         const auto b = load_side(lanes, run.movers, group.b, lane);
@@ -367,15 +378,20 @@ HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces
         auto impulse = scaled(sight.normal, after) - scaled(load(lanes, group.normal, lane), before);
         if (run.rubs) {
             const auto former = load(lanes, group.rub, lane);
-            const auto across = former - scaled(sight.normal, dot(former, sight.normal));
-            const auto turned = chosen(hn::Gt(before, zero), across, scaled(across, zero));
             const auto most = hn::Mul(load(lanes, group.friction, lane), after);
-            const auto rubbed = rub(lanes, turned, slip - scaled(sight.normal, parting), mass, most, losses);
-            store(lanes, rubbed.impulse, group.rub, lane);
-            impulse = impulse + (rubbed.impulse - former);
+            const auto sprung = load(lanes, group.sprung, lane);
+            const auto across = sprung - scaled(sight.normal, dot(sprung, sight.normal));
+            const auto turned = at_most(lanes, chosen(hn::Gt(before, zero), across, scaled(across, zero)), most);
+            // What slides is stopped, as far as friction can; but only what slips stretches the spring further.
+            const auto wanted_rub = turned - scaled(slip - scaled(sight.normal, parting), mass);
+            const auto rub = at_most(lanes, wanted_rub, most);
+            const auto slips = hn::Gt(dot(wanted_rub, wanted_rub), hn::Mul(most, most));
+            store(lanes, rub, group.rub, lane);
+            store(lanes, chosen(slips, rub, turned), group.sprung, lane);
+            impulse = impulse + (rub - former);
         }
         store(lanes, sight.normal, group.normal, lane);
-        store(lanes, sight.gap, group.gap, lane);
+        store_gap(lanes, sight.gap, group, lane);
         store(lanes, after, group.impulse, lane);
         push(lanes, run, group, lane, a, b, impulse);
         const auto carries = hn::And(hn::Gt(hn::Add(before, after), zero), hn::Gt(b.inverse_mass, zero));
@@ -384,7 +400,6 @@ HWY_ATTR double solve_hard(const ContactRun<Real>& run, Real frequency_of_pieces
         note_pressing(lanes, run, group.a, lane, sight.a, hn::Mul(force, a.inverse_mass));
         note_pressing(lanes, run, group.b, lane, sight.b, hn::Mul(force, b.inverse_mass));
     });
-    return losses;
 }
 
 template <class Real>

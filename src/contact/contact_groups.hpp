@@ -45,6 +45,8 @@ struct alignas(64) ContactGroup {
     Vectors rub{};                             ///< N s in a piece, friction on b
     Vectors apart{};                           ///< m, from a to b when they were listed; or the normal, if it is given
     Lanes touching{};                          ///< m, at which two balls touch; < 0 where normal and gap are given
+    Lanes plastic{};                           ///< m, of the overlap, what bears nothing
+    Vectors sprung{};                          ///< N s in a piece, of the friction, what stays when nothing slides
 };
 
 /// The vector in a lane.
@@ -67,6 +69,7 @@ struct Softness {
     Real mass = 0;      ///< part of the effective mass
     Real impulse = 0;   ///< part of the impulse so far that is taken back
     Real frequency = 0; ///< 1/s, pieces: gaps may be closed within one
+    Real stick = 0;     ///< part of the sliding that friction takes, if it can
 };
 
 /// What the passes run over.
@@ -79,18 +82,18 @@ struct ContactRun {
     bool rubs = false;               ///< whether any contact has friction
 };
 
-/// All of them take the groups in their order. Those that return a number return the energy that friction took, J.
+/// All of them take the groups in their order.
 template <class Real>
 struct GroupSolver {
     /// Looks where the balls are: normals and gaps.
     void (*measure)(const ContactRun<Real>&) = nullptr;
     /// Gives the movers what the impulses so far come to.
     void (*warm_up)(const ContactRun<Real>&) = nullptr;
-    /// Solves with softness; normals and gaps stay as they are.
+    /// Solves with softness; normals and gaps stay as they are. Returns the energy that friction took, J.
     double (*solve_softly)(const ContactRun<Real>&, const Softness<Real>&) = nullptr;
     /// Looks where the balls are, turns the impulses along, and takes all approach out, and no overlap. `frequency`: as
     /// in Softness.
-    double (*solve_hard)(const ContactRun<Real>&, Real frequency) = nullptr;
+    void (*solve_hard)(const ContactRun<Real>&, Real frequency) = nullptr;
 };
 
 /// The one for the instruction set in use: see carom/executor.hpp.

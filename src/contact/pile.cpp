@@ -17,6 +17,9 @@ namespace {
 /// from swinging: the values of Catto's Solver2D.
 constexpr double stiffness = 0.25;
 constexpr double damping_ratio = 10;
+/// How stiff contacts are across the normal, until they slip, in stiffnesses along it: as is usual for grains, since
+/// Cundall and Strack, Géotechnique 29 (1979) 47.
+constexpr double stiffness_across = 2.0 / 7;
 
 /// Pieces a second, at least: a heap of some ten layers keeps its shape.
 constexpr double least_rate = 1 / longest_piece;
@@ -63,17 +66,25 @@ auto Pile<Real>::wanted_rates() const -> Rates {
 }
 
 /// Loads change from step to step. Contacts that became stiffer and softer with them would stir a heap: their rate
-/// changes by halves, and goes back late.
+/// doubles for loads, and is halved when for a while a good deal less would have done.
 template <class Real>
 Pieces Pile<Real>::cut(double duration) {
-    constexpr double low = 0.4;
+    constexpr double low = 0.48;
+    constexpr double late = 0.5; // s
     const Rates wanted = wanted_rates();
     double& rate = state_.bodies.piece_rate;
-    rate = std::max(rate, least_rate);
+    double& calm = state_.bodies.calm;
+    const double before = rate = std::max(rate, least_rate);
     while (rate < wanted.load) rate *= 2;
-    while (rate > least_rate && wanted.load < low * rate) rate /= 2;
+    rate = std::max(rate, wanted.mass_ratio);
+    calm = rate > least_rate && std::max(wanted.load, wanted.mass_ratio) < low * rate ? calm + duration : 0;
+    if (calm > late) {
+        rate = std::max(rate / 2, least_rate);
+        calm = 0;
+    }
+    stiffening_ = (rate / before) * (rate / before);
     constexpr double rounding = 1 - 1e-9;
-    const double pieces = std::clamp(duration * std::max(rate, wanted.mass_ratio) * rounding, 1.0, most_pieces);
+    const double pieces = std::clamp(duration * rate * rounding, 1.0, most_pieces);
     return {duration, static_cast<std::uint32_t>(std::ceil(pieces))};
 }
 
@@ -108,17 +119,32 @@ void Pile<Real>::begin_piece(double from, double to) {
     if (bodies.listed.empty()) return;
     if (!has_values_) start_values();
     bodies.list_age += piece_;
-    constexpr double swing = 2 * std::numbers::pi * stiffness; // in a piece
-    constexpr double damped = 2 * damping_ratio + swing;
-    constexpr double a = swing * damped;
-    const Softness<Real> soft{.rate = static_cast<Real>(swing / (damped * piece_)),
-                              .mass = static_cast<Real>(a / (1 + a)),
-                              .impulse = static_cast<Real>(1 / (1 + a)),
-                              .frequency = static_cast<Real>(1 / piece_)};
+    if (stiffening_ > 1 && list_.rubs()) stiffen();
+    stiffening_ = 1;
+    const Softness<Real> soft = softness();
     set_out();
-    pass([&](const ContactRun<Real>& run) { return solver_->solve_softly(run, soft); });
+    list_.for_each_bundle(*executor_, [&](std::size_t bundle, std::span<ContactGroup<Real>> groups) {
+        losses_[bundle] = solver_->solve_softly(run_of(groups), soft);
+    });
+    for (const double loss : losses_) friction_loss_ += loss;
     book_driven(-1);
     go();
+}
+
+/// Of an implicit spring and damper over a piece: Catto, "Soft Constraints", Game Developers Conference 2011. Across
+/// the normal there is a spring alone.
+template <class Real>
+Softness<Real> Pile<Real>::softness() const {
+    const double pulse = 2 * std::numbers::pi * stiffness * state_.bodies.piece_rate; // rad/s
+    const double swing = pulse * piece_;
+    const double damped = 2 * damping_ratio + swing;
+    const double a = swing * damped;
+    const double across = stiffness_across * swing * swing;
+    return {.rate = static_cast<Real>(pulse / damped),
+            .mass = static_cast<Real>(a / (1 + a)),
+            .impulse = static_cast<Real>(1 / (1 + a)),
+            .frequency = static_cast<Real>(1 / piece_),
+            .stick = static_cast<Real>(across / (1 + across))};
 }
 
 template <class Real>
@@ -130,7 +156,9 @@ void Pile<Real>::end_piece(double at) {
     close_contacts();
     note_turns();
     book_driven(1);
-    pass([&](const ContactRun<Real>& run) { return solver_->solve_hard(run, static_cast<Real>(1 / piece_)); });
+    list_.for_each_bundle(*executor_, [&](std::size_t, std::span<ContactGroup<Real>> groups) {
+        solver_->solve_hard(run_of(groups), static_cast<Real>(1 / piece_));
+    });
     book_driven(-1);
     note_carried();
     come_to_rest();
@@ -167,14 +195,18 @@ ContactRun<Real> Pile<Real>::run_of(std::span<ContactGroup<Real>> groups) {
     return {groups, movers_.data(), places_.data(), carried_.data(), list_.rubs()};
 }
 
-/// Calls solve(run), which returns the energy (J) that friction took, for all contacts.
+/// Contacts that get stiffer go on bearing what they bore: the rest of their overlap is *plastic*, as after Walton and
+/// Braun, Acta Mechanica 63 (1986) 73, and bears nothing. Were it to be undone, a heap would swell between its walls,
+/// and friction would keep it from doing so with any force.
 template <class Real>
-template <class F>
-void Pile<Real>::pass(F&& solve) {
-    list_.for_each_bundle(*executor_, [&](std::size_t bundle, std::span<ContactGroup<Real>> groups) {
-        losses_[bundle] = solve(run_of(groups));
-    });
-    for (const double loss : losses_) friction_loss_ += loss;
+void Pile<Real>::stiffen() {
+    const auto kept = static_cast<Real>(1 / stiffening_);
+    for (ContactGroup<Real>& group : list_.groups()) {
+        for (std::size_t lane = 0; lane < group_size; ++lane) {
+            const Real overlap = -group.gap[lane];
+            if (overlap > 0) group.plastic[lane] = overlap - (overlap - group.plastic[lane]) * kept;
+        }
+    }
 }
 
 /// Looks how far the walls are.
@@ -354,7 +386,9 @@ void Pile<Real>::close(std::uint32_t number, double gap) {
     if (b < shares_.size()) shares_[b] -= impulse * movers_[b].inverse_mass;
     group.impulse[lane] = 0;
     for (auto& lanes : group.rub) lanes[lane] = 0;
+    for (auto& lanes : group.sprung) lanes[lane] = 0;
     group.touching[lane] = -1;
+    group.plastic[lane] = 0;
     group.gap[lane] = std::numeric_limits<Real>::infinity();
     closed_.push_back({number, gap});
 }

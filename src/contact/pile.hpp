@@ -114,6 +114,7 @@ private:
     };
 
     [[nodiscard]] Rates wanted_rates() const;
+    [[nodiscard]] Softness<Real> softness() const;
 
     // The list.
     void start_list(double from);
@@ -125,6 +126,7 @@ private:
     bool take_back(double from);
     void advance_leaner(std::size_t leaner, double at);
     void start_values();
+    void stiffen();
     void recall_forces();
     void keep_forces();
     void note_pressings();
@@ -139,8 +141,6 @@ private:
 
     // Contacts.
     [[nodiscard]] ContactRun<Real> run_of(std::span<ContactGroup<Real>> groups);
-    template <class F>
-    void pass(F&& solve);
     void measure_walls();
     void measure_driven();
     [[nodiscard]] Vector surface_velocity(const ContactName& name, const Vec3& normal) const;
@@ -226,6 +226,7 @@ private:
     // The step.
     double still_speed_ = 0; ///< m/s, what is slower lies still
     double told_speed_ = 0;  ///< m/s
+    double stiffening_ = 1;  ///< of contacts, by this step's rate of pieces: the factor, until it is done
     double far_ = 0;         ///< m, that a body may move until the list does no longer for it
 
     // The piece.

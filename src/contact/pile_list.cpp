@@ -179,6 +179,8 @@ void Pile<Real>::recall_forces() {
         ContactGroup<Real>& group = list_.group_of(name);
         group.impulse[name.lane()] = static_cast<Real>(force.normal * piece_);
         put_into(group.rub, name.lane(), force.friction * piece_);
+        put_into(group.sprung, name.lane(), force.friction * piece_);
+        group.plastic[name.lane()] = static_cast<Real>(force.plastic);
     };
     const auto is_of = [](const ContactName& name, const ContactForce& force) {
         return name.slot == force.a && name.code == force.code;
@@ -214,9 +216,10 @@ void Pile<Real>::keep_forces() {
         const std::size_t lane = name.lane();
         const bool is_gone = (marks_[group.a[lane]] & gone) != 0;
         ContactForce& kept = forces[k] = {.a = name.slot, .code = name.code};
+        if (!is_gone) kept.plastic = static_cast<double>(group.plastic[lane]);
         if (is_gone || !(group.impulse[lane] > 0)) return;
         kept.normal = static_cast<double>(group.impulse[lane]) / piece_;
-        kept.friction = detail::wide(vector_in(group.rub, lane)) / piece_;
+        kept.friction = detail::wide(vector_in(group.sprung, lane)) / piece_;
         ++bearing[part];
     });
     bearing_ = 0;

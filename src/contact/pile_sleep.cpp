@@ -7,8 +7,9 @@
 
 namespace carom::core {
 
-/// Bodies with contacts to each other, listed ones that bear nothing among them, are an island. It falls asleep when
-/// all of it has lain still for long: looked for ten times a second, or in each step where lists last no longer.
+/// Bodies with contacts to each other, listed ones that bear nothing among them, are an island; who was let go belongs
+/// to none. It falls asleep when all of it has lain still for long: looked for ten times a second, or in each step
+/// where lists last no longer.
 template <class Real>
 void Pile<Real>::fall_asleep(double reached) {
     constexpr double long_enough = 0.5;
@@ -20,10 +21,13 @@ void Pile<Real>::fall_asleep(double reached) {
     if (state_.bounds.any_driven() || bodies.top_growth != 0) return;
     const auto sleeps = [](const ListedBody& l) { return l.still >= long_enough; };
     if (std::none_of(bodies.listed.begin(), bodies.listed.end(), sleeps)) return;
+    const auto leans = [&](std::uint32_t mover) { return mover < bodies_.size() && (marks_[mover] & gone) == 0; };
     islands_.start(bodies_.size());
     for (const ContactName& name : list_.names()) {
         const ContactGroup<Real>& group = list_.group_of(name);
-        if (group.b[name.lane()] < bodies_.size()) islands_.unite(group.a[name.lane()], group.b[name.lane()]);
+        const std::uint32_t a = group.a[name.lane()];
+        const std::uint32_t b = group.b[name.lane()];
+        if (leans(a) && leans(b)) islands_.unite(a, b);
     }
     wakeful_.assign(bodies_.size(), false);
     for (const std::uint32_t number : list_.driven()) {
@@ -53,7 +57,9 @@ void Pile<Real>::leave_sleepers() {
     for (const ContactForce& force : bodies.contacts) {
         if (is_asleep(force.a) && force.normal > 0) bodies.sleeping.push_back(force);
     }
-    std::erase_if(bodies.contacts, [&](const ContactForce& force) { return is_asleep(force.a); });
+    std::erase_if(bodies.contacts, [&](const ContactForce& force) {
+        return is_asleep(force.a) || ((force.code & Support::wall_bit) == 0 && is_asleep(force.code));
+    });
     std::erase_if(bodies.listed, [&](const ListedBody& l) { return is_asleep(l.slot); });
     bearing_ = static_cast<std::size_t>(std::count_if(bodies.contacts.begin(), bodies.contacts.end(),
                                                       [](const ContactForce& force) { return force.normal > 0; }));

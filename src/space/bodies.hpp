@@ -102,6 +102,7 @@ struct ContactForce {
     std::uint32_t code = 0; ///< the other's slot, or Support::wall_bit | index of a wall of the Bounds
     double normal = 0;      ///< N, >= 0, pushes them apart
     Vec3 friction{};        ///< N, on the other
+    double plastic = 0;     ///< m, of the overlap, what bears nothing
 };
 
 /// A piled body where it was when its contacts were listed.
@@ -151,7 +152,8 @@ struct Bodies {
     std::uint64_t list_edge = 0;              ///< units, of the cells that give it its order
     std::vector<ContactForce> sleeping;       ///< contacts of the bodies that are asleep
     std::vector<Load<Real>> loads;            ///< per body, inside a step with contacts
-    double piece_rate = 0;                    ///< 1/s, of pieces, for the loads of the last step
+    double piece_rate = 0;                    ///< 1/s, of pieces, and four times that of a contact's swinging
+    double calm = 0;                          ///< s, for which that has been more than the loads ask for
     bool newly_piled = false;                 ///< bodies were piled that Pile does not know of yet
     std::vector<RecentFlight> recent_flights; ///< between windows; in the order of slots
     std::vector<Course> course;               ///< per body, only while a solver works on these bodies

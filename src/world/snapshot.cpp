@@ -12,7 +12,7 @@ namespace carom::core {
 namespace {
 
 constexpr std::array<char, 8> snapshot_magic{'c', 'a', 'r', 'o', 'm', 's', 'n', '\n'};
-constexpr std::uint32_t snapshot_version = 10;
+constexpr std::uint32_t snapshot_version = 11;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCode::bad_data, "snapshot", reason); }
 
@@ -214,7 +214,7 @@ void transfer(Archive& archive, ListedBody& listed) {
 
 template <class Archive>
 void transfer(Archive& archive, ContactForce& force) {
-    archive(force.a, force.code, force.normal, force.friction);
+    archive(force.a, force.code, force.normal, force.friction, force.plastic);
 }
 
 template <class Archive>
@@ -302,7 +302,7 @@ template <class Real>
 template <class Archive>
 void Engine<Real>::transfer(Archive& archive, Bodies<Real>& b) {
     archive(b.motion, b.kind, b.slot, b.previous, b.growth, b.slots, b.generations, b.free_slots, b.holds, b.listed,
-            b.contacts, b.sleeping, b.list_age, b.list_margin, b.list_edge, b.piece_rate, b.recent_flights,
+            b.contacts, b.sleeping, b.list_age, b.list_margin, b.list_edge, b.piece_rate, b.calm, b.recent_flights,
             state_.books, attractors_, attractor_places_, clock_, ledger_, last_start_, last_step_);
     b.for_each_column([&archive](auto& column) { archive(column); });
     state_.bounds.transfer_motion(archive);
@@ -445,6 +445,7 @@ template <class Real>
 bool Engine<Real>::contacts_are_sound() const {
     const Bodies<Real>& b = state_.bodies;
     check_not_negative(b.piece_rate, "piece_rate");
+    check_not_negative(b.calm, "calm");
     check_not_negative(b.list_age, "list_age");
     check_not_negative(b.list_margin, "list_margin");
     const auto exists = [&b](std::uint32_t slot) { return slot < b.slots.size() && b.slots[slot] != no_index; };
@@ -465,6 +466,7 @@ bool Engine<Real>::contacts_are_sound() const {
         return std::all_of(contacts.begin(), contacts.end(), [&](const ContactForce& c) {
             check_not_negative(c.normal, "contact");
             check_finite(c.friction, "contact");
+            check_not_negative(c.plastic, "contact");
             const bool is_wall = (c.code & Support::wall_bit) != 0;
             return is_lower(c.a) && (is_wall ? (c.code & ~Support::wall_bit) < state_.bounds.size() : bears(c.code));
         });
@@ -509,10 +511,11 @@ std::uint64_t Engine<Real>::hash() const {
         if (state_.bodies.kind[i] != Kind::held) continue;
         for (const Support& support : hold_of(state_.bodies, i).supports) hasher(support.code);
     }
-    hasher(state_.bodies.piece_rate, state_.bodies.list_age, state_.bodies.list_margin, state_.bodies.list_edge);
+    hasher(state_.bodies.piece_rate, state_.bodies.calm, state_.bodies.list_age, state_.bodies.list_margin,
+           state_.bodies.list_edge);
     for (const auto* contacts : {&state_.bodies.contacts, &state_.bodies.sleeping}) {
         for (const ContactForce& c : *contacts) {
-            hasher(c.a, c.code, c.normal);
+            hasher(c.a, c.code, c.normal, c.plastic);
             hasher.vector(c.friction);
         }
     }

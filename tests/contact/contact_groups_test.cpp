@@ -54,7 +54,7 @@ struct Scene {
         return {{&group, 1}, bodies.data(), places.data(), carried.data(), rubs};
     }
     void solve_hard(bool rubs) {
-        loss = carom::core::group_solver<Real>().solve_hard(run(rubs), static_cast<Real>(frequency));
+        carom::core::group_solver<Real>().solve_hard(run(rubs), static_cast<Real>(frequency));
     }
     void solve_softly(const carom::core::Softness<Real>& softness, bool rubs) {
         loss = carom::core::group_solver<Real>().solve_softly(run(rubs), softness);
@@ -68,7 +68,9 @@ struct Scene {
         for (std::size_t k = 0; k < group_size; ++k) {
             add(wide(vector_in(group.normal, k)));
             add(wide(vector_in(group.rub, k)));
-            all.insert(all.end(), {static_cast<double>(group.gap[k]), static_cast<double>(group.impulse[k])});
+            add(wide(vector_in(group.sprung, k)));
+            all.insert(all.end(), {static_cast<double>(group.gap[k]), static_cast<double>(group.impulse[k]),
+                                   static_cast<double>(group.plastic[k])});
         }
         for (std::size_t k = 0; k < movers; ++k) {
             add(wide(bodies[k].v));
@@ -138,7 +140,7 @@ TYPED_TEST(ContactGroups, ImpulsesTurnAlongWithTheNormals) {
     });
 }
 
-TYPED_TEST(ContactGroups, FrictionBrakesAsFarAsItCanAndTellsWhatItTook) {
+TYPED_TEST(ContactGroups, FrictionStretchesUntilItSlipsAndTellsWhatItTook) {
     this->for_each_target([this] {
         Scene<TypeParam> scene;
         for (std::size_t k = 0; k < group_size; ++k) {
@@ -146,16 +148,83 @@ TYPED_TEST(ContactGroups, FrictionBrakesAsFarAsItCanAndTellsWhatItTook) {
             scene.bodies[k].v = {1, 0, 0};
             scene.bodies[k + group_size].v = {0, static_cast<TypeParam>(k < 4 ? 0.125 : 2), 0};
         }
-        scene.solve_hard(true);
+        scene.solve_softly({.mass = 1, .frequency = frequency, .stick = 0.5}, true);
         double taken = 0;
         for (std::size_t k = 0; k < group_size; ++k) {
-            // Impulse 1/2 N s, friction up to 1/8 N s, which changes the sliding by 1/4 m/s.
-            const double before = k < 4 ? 0.125 : 2;
-            const double after = k < 4 ? 0 : 1.75;
+            // Half of what would stop the sliding; but an impulse of 1/2 N s bears 1/8 N s, which change it by 1/4 m/s.
+            const double after = k < 4 ? 0.0625 : 1.75;
+            const double friction = k < 4 ? 0.5 * 0.5 * 0.125 : 0.125;
             EXPECT_NEAR(length(scene.slip(k) - Vec3{0, after, 0}), 0, this->rounding) << k;
-            taken += 0.25 * (before * before - after * after);
+            EXPECT_NEAR(length(wide(vector_in(scene.group.rub, k)) - Vec3{0, -friction, 0}), 0, this->rounding);
+            taken += friction * after;
         }
         EXPECT_NEAR(scene.loss, taken, 8 * this->rounding);
+    });
+}
+
+TYPED_TEST(ContactGroups, AHardPassKeepsTheFrictionThatItsImpulsesBear) {
+    this->for_each_target([this] {
+        Scene<TypeParam> scene;
+        for (std::size_t k = 0; k < group_size; ++k) {
+            scene.group.friction[k] = static_cast<TypeParam>(0.25);
+            scene.group.impulse[k] = 1;
+            put_into(scene.group.rub, k, {0, 0.125, 0.125});
+            put_into(scene.group.sprung, k, {0, 0.125, 0.125});
+            // Parting takes half of the impulse.
+            scene.bodies[k + group_size].v = {static_cast<TypeParam>(k < 4 ? 0 : 1), 0, 0};
+        }
+        scene.solve_hard(true);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            const double kept = k < 4 ? 0.125 : 0.125 / std::sqrt(2.0);
+            EXPECT_NEAR(length(wide(vector_in(scene.group.rub, k)) - Vec3{0, kept, kept}), 0, this->rounding) << k;
+            EXPECT_NEAR(length(wide(vector_in(scene.group.sprung, k)) - Vec3{0, kept, kept}), 0, this->rounding);
+            EXPECT_NEAR(length(scene.slip(k) - Vec3{0, 2 * (kept - 0.125), 2 * (kept - 0.125)}), 0, this->rounding);
+        }
+    });
+}
+
+TYPED_TEST(ContactGroups, WhatFrictionDampsIsGivenBackUnlessItSlips) {
+    this->for_each_target([this] {
+        Scene<TypeParam> scene;
+        for (std::size_t k = 0; k < group_size; ++k) {
+            scene.group.friction[k] = static_cast<TypeParam>(0.25);
+            scene.group.impulse[k] = 1;
+            scene.bodies[k + group_size].v = {0, static_cast<TypeParam>(k < 4 ? 0.125 : 2), 0};
+        }
+        scene.solve_hard(true);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            const double friction = k < 4 ? 0.0625 : 0.25;
+            EXPECT_NEAR(scene.slip(k).y, k < 4 ? 0 : 1.5, this->rounding) << k;
+            EXPECT_NEAR(static_cast<double>(scene.group.rub[1][k]), -friction, this->rounding);
+            EXPECT_NEAR(static_cast<double>(scene.group.sprung[1][k]), k < 4 ? 0 : -0.25, this->rounding);
+        }
+        scene.solve_softly({.impulse = 0, .frequency = frequency, .stick = 0.5}, true);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            EXPECT_NEAR(scene.slip(k).y, k < 4 ? 0.0625 : 1.5, this->rounding) << k;
+            EXPECT_NEAR(static_cast<double>(scene.group.sprung[1][k]), k < 4 ? -0.03125 : -0.25, this->rounding);
+        }
+    });
+}
+
+TYPED_TEST(ContactGroups, PlasticOverlapBearsNothingAndDoesNotComeBack) {
+    this->for_each_target([this] {
+        Scene<TypeParam> scene;
+        constexpr double plastic = 1.0 / 128;
+        for (std::size_t k = 0; k < group_size; ++k) {
+            const double overlap = k < 4 ? 2 * plastic : 0.5 * plastic;
+            scene.group.plastic[k] = static_cast<TypeParam>(plastic);
+            scene.group.gap[k] = static_cast<TypeParam>(-overlap);
+            put_into(scene.group.apart, k, {1 - overlap, 0, 0});
+        }
+        scene.solve_softly({.rate = 32, .mass = 1, .frequency = frequency}, false);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            EXPECT_NEAR(scene.slip(k).x, k < 4 ? 32 * plastic : 0, this->rounding) << k;
+        }
+        scene.solve_hard(false);
+        for (std::size_t k = 0; k < group_size; ++k) {
+            const double left = k < 4 ? plastic : 0.5 * plastic;
+            EXPECT_NEAR(static_cast<double>(scene.group.plastic[k]), left, this->rounding) << k;
+        }
     });
 }
 
@@ -198,9 +267,11 @@ Scene<Real> random_scene(std::mt19937& engine) {
         put_into(group.apart, k, carom::detail::direction(vector(1)) * number(0.999, 1.001));
         put_into(group.normal, k, carom::detail::direction(vector(1)));
         put_into(group.rub, k, vector(0.1));
+        put_into(group.sprung, k, vector(0.1));
         group.impulse[k] = static_cast<Real>(std::max(0.0, number(-1, 1)));
         group.friction[k] = static_cast<Real>(number(0, 1));
         group.gap[k] = static_cast<Real>(number(-1e-3, 1e-3));
+        group.plastic[k] = static_cast<Real>(std::max(0.0, number(-1e-3, 1e-3)));
         if (k % 4 == 2) group.touching[k] = -1;
         if (k % 4 == 3) {
             group.touching[k] = -1;
@@ -224,7 +295,8 @@ TYPED_TEST(ContactGroups, EveryInstructionSetGivesTheSameBits) {
             scene.solve_softly({.rate = 35,
                                 .mass = static_cast<TypeParam>(0.97),
                                 .impulse = static_cast<TypeParam>(0.03),
-                                .frequency = static_cast<TypeParam>(frequency)},
+                                .frequency = static_cast<TypeParam>(frequency),
+                                .stick = static_cast<TypeParam>(0.4)},
                                true);
             found.push_back(scene.bits());
             scene.solve_hard(true);

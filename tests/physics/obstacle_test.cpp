@@ -360,8 +360,12 @@ TEST(Obstacles, FrictionHoldsOnASlopeOfAMesh) {
         const BodyId id =
             world.add({.position = normal * 0.5, .radius = 0.5, .restitution = 0.2, .friction = part * slope});
         run(world, 4);
-        const double expected = part < 1 ? (1 - part) * g * std::sin(std::atan(slope)) * 4 : 0;
-        EXPECT_NEAR(length(world.get(id).velocity), expected, 0.01 * expected + 1e-6) << part;
+        const double pull = g * std::sin(std::atan(slope));
+        const double expected = part < 1 ? (1 - part) * pull * 4 : 0;
+        // It begins on the seam of two triangles. Where the second takes it over from the first, friction is not
+        // stretched yet: what pulls it in that piece stays if it slides.
+        const double taken_over = part < 1 ? pull / 480 : 0;
+        EXPECT_NEAR(length(world.get(id).velocity), expected, 0.01 * expected + taken_over + 1e-6) << part;
     }
 }
 
