@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <numbers>
 #include <random>
@@ -22,7 +23,7 @@ using carom::World;
 constexpr double g = 9.81;
 
 struct Pour {
-    int count = 400;
+    std::size_t count = 400;
     double radius = 0.01; ///< m
     double side = 0.08;   ///< m, of the box
     double height = 1.1;  ///< m, in which they are
@@ -36,7 +37,7 @@ World poured(const Pour& pour, unsigned seed) {
     std::mt19937 engine(seed);
     const auto within = [&](double high) { return r + (high - 2 * r) * (static_cast<double>(engine()) / 0x1p32); };
     std::vector<Vec3> places;
-    while (static_cast<int>(places.size()) < pour.count) {
+    while (places.size() < pour.count) {
         const Vec3 x{within(pour.side), within(pour.side), within(pour.height)};
         const auto is_near = [&](const Vec3& y) { return length(y - x) < 2.0002 * r; };
         if (std::none_of(places.begin(), places.end(), is_near)) places.push_back(x);
@@ -66,7 +67,7 @@ double mean_borne(const Pour& pour, unsigned pours, double seconds) {
         sum += borne(world);
     }
     const double mean = sum / pours;
-    std::printf("figure: the floor below %d grains from up to %g m bears %.3f of their weight\n", pour.count,
+    std::printf("figure: the floor below %zu grains from up to %g m bears %.3f of their weight\n", pour.count,
                 pour.height, mean);
     return mean;
 }
