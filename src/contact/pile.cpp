@@ -66,11 +66,11 @@ auto Pile<Real>::wanted_rates() const -> Rates {
 }
 
 /// Loads change from step to step. Contacts that became stiffer and softer with them would stir a heap: their rate
-/// doubles for loads, and is halved when for a while a good deal less would have done.
+/// doubles for loads, and is halved when half would have done for a while.
 template <class Real>
 Pieces Pile<Real>::cut(double duration) {
     constexpr double low = 0.48;
-    constexpr double late = 0.5; // s
+    constexpr double late = 0.1; // s
     const Rates wanted = wanted_rates();
     double& rate = state_.bodies.piece_rate;
     double& calm = state_.bodies.calm;
@@ -132,7 +132,7 @@ void Pile<Real>::begin_piece(double from, double to) {
 }
 
 /// Of an implicit spring and damper over a piece: Catto, "Soft Constraints", Game Developers Conference 2011. Across
-/// the normal there is a spring alone.
+/// the normal it is a spring alone: the damper there is the hard pass.
 template <class Real>
 Softness<Real> Pile<Real>::softness() const {
     const double pulse = 2 * std::numbers::pi * stiffness * state_.bodies.piece_rate; // rad/s
@@ -611,7 +611,8 @@ void Pile<Real>::arrive(double at) {
 }
 
 /// What the hard pass leaves of the velocities; those whom no contact with a moving body or an obstacle carried or
-/// pushed are let go.
+/// pushed in two pieces are let go. Not in one: what would carry it may have come to lean in that piece, and be listed
+/// only now; and would be let go in the next, as nothing but the one that it carries leans on it.
 template <class Real>
 void Pile<Real>::come_to_rest() {
     const bool had_far = has_far_;
@@ -620,9 +621,12 @@ void Pile<Real>::come_to_rest() {
         Vector& v = state_.bodies.motion[body].v;
         shares_[k] += movers_[k].v - v;
         v = movers_[k].v;
-        double& still = state_.bodies.listed[k].still;
-        still = length_squared(detail::wide(movers_[k].v)) <= still_speed_ * still_speed_ ? still + piece_ : 0;
-        if (carried_[k] != 0) return;
+        ListedBody& listed = state_.bodies.listed[k];
+        const bool is_still = length_squared(detail::wide(movers_[k].v)) <= still_speed_ * still_speed_;
+        listed.still = is_still ? listed.still + piece_ : 0;
+        const bool was_borne = std::exchange(listed.is_borne, carried_[k] != 0);
+        if (was_borne || listed.is_borne) return;
+        listed.is_borne = true; // when it comes back
         enter(k, movers_[k].v);
         marks_[k] = gone;
         state_.bodies.kind[body] = Kind::free;

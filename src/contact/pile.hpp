@@ -242,6 +242,7 @@ private:
     std::array<Findings, most_parts> findings_;
     std::vector<std::uint32_t> returned_;
     std::vector<double> still_; ///< s, per slot
+    std::vector<bool> borne_;   ///< per slot
     DisjointSets islands_;
     std::vector<bool> wakeful_;  ///< per root of an island
     std::vector<double> losses_; ///< J, per bundle

@@ -66,14 +66,19 @@ template <class Real>
 void Pile<Real>::gather() {
     Bodies<Real>& bodies = state_.bodies;
     still_.assign(bodies.slots.size(), 0);
-    for (const ListedBody& l : bodies.listed) still_[l.slot] = l.still;
+    borne_.assign(bodies.slots.size(), true);
+    for (const ListedBody& l : bodies.listed) {
+        still_[l.slot] = l.still;
+        borne_[l.slot] = l.is_borne;
+    }
     bodies.listed.clear();
     clear_for_reuse(bodies_);
     bodies.loads.assign(bodies.size(), {});
     for (Index i = 0; i < bodies.size(); ++i) {
         if (bodies.kind[i] != Kind::piled) continue;
         bodies_.push_back(i);
-        bodies.listed.push_back({.slot = bodies.slot[i], .still = still_[bodies.slot[i]]});
+        const std::uint32_t slot = bodies.slot[i];
+        bodies.listed.push_back({.slot = slot, .still = still_[slot], .is_borne = borne_[slot]});
     }
     accounts_.assign(bodies_.size(), {});
     marks_.assign(bodies_.size(), 0);

@@ -108,8 +108,9 @@ struct ContactForce {
 /// A piled body where it was when its contacts were listed.
 struct ListedBody {
     std::uint32_t slot = 0;
-    Int3 x{};         ///< units
-    double still = 0; ///< s, how long it has lain still
+    Int3 x{};             ///< units
+    double still = 0;     ///< s, how long it has lain still
+    bool is_borne = true; ///< a contact carried it in the last piece, or it is new
 };
 
 /// What is known in a piece of how its contacts load a body; nothing of one that is not piled, or only just.

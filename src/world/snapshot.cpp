@@ -209,7 +209,7 @@ void transfer(Archive& archive, Growth& growth) {
 
 template <class Archive>
 void transfer(Archive& archive, ListedBody& listed) {
-    archive(listed.slot, listed.x, listed.still);
+    archive(listed.slot, listed.x, listed.still, listed.is_borne);
 }
 
 template <class Archive>

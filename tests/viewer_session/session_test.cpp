@@ -8,9 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>

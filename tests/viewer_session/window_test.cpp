@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <optional>
 #include <vector>
 
 namespace carom::viewer {
