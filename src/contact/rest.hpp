@@ -22,7 +22,8 @@ inline double resting_speed(double e, double pressing, double rest_time) {
 /// m/s, the approach above which what touches in a pile is struck. What presses bodies on each other there are their
 /// neighbours: with the load that both carry (m/s^2), and never less than the weight of a body.
 inline double striking_speed(double e, double load, const Laws& laws) {
-    return 2 * resting_speed(e, std::max(load, length(laws.gravity)), laws.rest_time);
+    const double pressing = std::max(load, length(laws.gravity));
+    return 2 * resting_speed(std::min(e, most_wearing_restitution), pressing, laws.rest_time);
 }
 template <class Real>
 double load_on(const Bodies<Real>& bodies, Index i) {
@@ -79,12 +80,11 @@ inline constexpr double longest_piece = 1.0 / 480;
 /// gravity has to press it on; and it goes straight for a piece, in which a curved surface must not bend towards it by
 /// more than this part of its radius: contacts undo a fourteenth of an overlap in a piece.
 template <class Real>
-bool may_lie_on_obstacle(const State<Real>& state, const Support& support, double radius, const Vec3& velocity,
-                         double e) {
+bool may_lie_on_obstacle(const State<Real>& state, const Support& support, double radius, const Vec3& velocity) {
     constexpr double most = 0.01;
     const double way = length(velocity) * longest_piece;
     const double contact = state.bounds.obstacles()->contact_distance(radius);
-    return e < 1 && state.laws.gravity != Vec3{} && 0.5 * std::abs(support.bend) * way * way <= most * contact;
+    return state.laws.gravity != Vec3{} && 0.5 * std::abs(support.bend) * way * way <= most * contact;
 }
 
 /// m/s, the approach above which a piled body strikes a wall or facet.

@@ -237,9 +237,8 @@ double predict_facet(const State<Real>& state, Index body, std::uint32_t wall) {
     if (!touches || std::abs(dot(v - u, touch.normal)) > approach_rounding<Real>(v, u, touch.normal)) return m.t + time;
     // An approach that is mere rounding is none. Whatever presses the body comes to lie; what may not do that strikes
     // as soon as it is a little deeper.
-    const double e = encounter_of(state, body, state.bounds.surface(wall), 0).resting_restitution;
     const Support support = support_by_facet(state, wall, touch, m, {}, v, growth);
-    if (may_lie_on_obstacle(state, support, radius, v, e)) {
+    if (may_lie_on_obstacle(state, support, radius, v)) {
         const double pressing = pressure_on(state, m, state.bodies.slot[body], support, v).acceleration;
         if (std::max(pressing, dot(a, touch.normal)) > 0) return m.t;
     }

@@ -188,12 +188,11 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
     const bool only_stops = is_piled && leans && approach <= striking_speed_at(state, body, support.wall());
     if (only_stops) encounter.restitution = 0;
     const auto radius = static_cast<double>(state.bodies.motion[body].radius);
-    const bool may_rest =
-        !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v, encounter.resting_restitution));
+    const bool may_rest = !is_piled && (!leans || may_lie_on_obstacle(state, support, radius, v));
     // What turns stays where it is: what presses a body on there is its own way along it.
     const Vec3 along = leans ? v : relative;
-    bool come_to_rest =
-        may_rest && rests(state, body, support, approach, along, rounding, encounter.resting_restitution);
+    const double e = encounter.resting_restitution;
+    bool come_to_rest = may_rest && rests(state, body, support, approach, along, rounding, e);
     if (come_to_rest && support.is_driven) {
         lie_down(state, body, support, occurrence);
         return;
@@ -204,7 +203,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         haste.lasts = haste.lasts && !(pressure_here(state, body, support, along).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
-        const bool squeezed = haste.jams || (haste.stands && encounter.resting_restitution < 1);
+        const bool squeezed = haste.jams || (haste.stands && e < 1);
         occurrence.is_crushed = haste.jams && support.is_driven;
         come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
                                         pressure_here(state, body, support, along).acceleration >= 0);

@@ -80,8 +80,16 @@ struct Encounter {
     double resting_restitution = 0; ///< what the rest rule takes
 };
 
+/// The most that the rest rule takes for e where bounces lose energy even at e = 1: where it rubs, on a slope or
+/// between two, and in a pile. They would get lower without end, and each the more often: those no higher than g
+/// t_rest^2 / 80 000 are a contact.
+inline constexpr double most_wearing_restitution = 0.99;
+
+/// The e that the rest rule takes on a support, of an encounter's e and mu.
+inline double resting_restitution(double e, double mu) { return mu > 0 ? std::min(e, most_wearing_restitution) : e; }
+
 /// An encounter with one e for all speeds.
-inline Encounter plain_encounter(double e, double mu) { return {e, mu, e}; }
+inline Encounter plain_encounter(double e, double mu) { return {e, mu, resting_restitution(e, mu)}; }
 
 /// An encounter with e by speed (m/s), at `approach`. The rest rule takes e at the speed that gravity gives in the rest
 /// time, so that the limit between a contact and an impact does not depend on the approach; without it there are no
@@ -90,7 +98,7 @@ template <class RestitutionAt>
 Encounter encounter_by_speed(const Laws& laws, double approach, double mu, const RestitutionAt& restitution_at) {
     const double e = restitution_at(approach);
     const double fallen = length(laws.gravity) * laws.rest_time;
-    return {e, mu, fallen > 0 ? restitution_at(fallen) : e};
+    return {e, mu, resting_restitution(fallen > 0 ? restitution_at(fallen) : e, mu)};
 }
 
 /// e of a body that meets something: by the law of its material where that has one.

@@ -350,6 +350,31 @@ TEST(Obstacles, BallsComeToRestOnThemAndAreCarried) {
     rest(floor_of(3, 5), many, "sixty on a mesh");
 }
 
+// Inelastic ones, and friction, take their energy: bounces that get lower without end must not get more without end.
+TEST(Obstacles, ElasticBallsAmongOthersHaveNoImpactsWithoutEnd) {
+    constexpr std::uint64_t cap = 200000; // a jam takes 10 000 impacts
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        Random random(seed);
+        const auto precision = seed % 2 == 0 ? carom::Precision::single_precision : carom::Precision::double_precision;
+        World world({.gravity = {0, 0, -g},
+                     .region = carom::Box{.min = {-3, -3, -1}, .max = {3, 3, 8}},
+                     .obstacles = {terrain(3, 6, [&](double, double) { return random.between(-0.5, 0.5); })},
+                     .precision = precision,
+                     .work_cap = cap});
+        for (std::size_t k = 0; k < 48; ++k) {
+            const bool is_elastic = k % 5 == 0;
+            world.add({.position = lattice(k, 4) + Vec3{-1.5, -1.5, 2} + random.vector(0.1),
+                       .velocity = random.vector(2),
+                       .radius = random.between(0.1, 0.25),
+                       .restitution = is_elastic ? 1 : 0.5,
+                       .friction = is_elastic && seed % 4 < 2 ? 0 : 0.25});
+        }
+        for (int step = 0; step < 1200; ++step) {
+            ASSERT_FALSE(world.step(dt).work_cap_reached) << "seed " << seed << ", step " << step;
+        }
+    }
+}
+
 // Coulomb: what lies on a slope of 20 degrees stays there if mu > tan 20, and slides with g (sin - mu cos) if less.
 TEST(Obstacles, FrictionHoldsOnASlopeOfAMesh) {
     const double slope = std::tan(20 * std::numbers::pi / 180);
