@@ -30,11 +30,11 @@ template <class Real>
 void ContactList<Real>::find(Executor& executor, double margin, double time) {
     number_leaners();
     look_around(executor, margin, time);
-    arrange();
+    arrange(executor);
 }
 
 template <class Real>
-void ContactList<Real>::recall() {
+void ContactList<Real>::recall(Executor& executor) {
     number_leaners();
     clear_for_reuse(found_);
     const auto leaner = [this](std::uint32_t slot) { return places_[state_.bodies.slots[slot]]; };
@@ -42,7 +42,7 @@ void ContactList<Real>::recall() {
         const bool is_wall = (force.code & Support::wall_bit) != 0;
         found_.push_back({leaner(force.a), is_wall ? nobody : leaner(force.code), force.a, force.code});
     }
-    arrange();
+    arrange(executor);
 }
 
 template <class Real>
@@ -132,10 +132,10 @@ void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, do
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <class Real>
-void ContactList<Real>::arrange() {
+void ContactList<Real>::arrange(Executor& executor) {
     assign_cells();
-    sort();
-    make_groups();
+    sort(executor);
+    make_groups(executor);
 }
 
 template <class Real>
@@ -192,34 +192,72 @@ auto ContactList<Real>::order_of(std::uint32_t number) const -> Order {
     const std::uint64_t first = lower_cell(a.across[0], b.across[0], turns_[0]);
     const std::uint64_t second = lower_cell(a.across[1], b.across[1], turns_[1]);
     const std::uint64_t colour = (first & 1U) + 2 * (second & 1U);
-    return {.column = colour << 60U | first << 30U | second,
+    return {.column = (colour << Order::column_bits | first) << Order::column_bits | second,
             .height = std::min(a.height, b.height),
             .contact = number,
             .ids = std::uint64_t{found.slot} << 32U | found.code};
 }
 
+/// Into buckets first, which neighbouring columns of one colour share where there are more columns than buckets:
+/// columns of one colour may be solved in any order.
 template <class Real>
-void ContactList<Real>::sort() {
+void ContactList<Real>::sort(Executor& executor) {
+    constexpr std::size_t order_grain = 4096;
+    constexpr std::size_t bucket_grain = 16;
+    constexpr std::size_t leaners_of_bucket = 8;
+    constexpr unsigned most_bits = 10;
+    unsigned bits = 0; // along either axis
+    while (bits < most_bits && (colours << 2 * (bits + 1)) * leaners_of_bucket <= state_.bodies.listed.size()) ++bits;
+    const auto bucket_of = [bits](const Order& order) {
+        const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+        const std::uint64_t colour = order.column >> 2 * Order::column_bits;
+        const std::uint64_t first = order.column >> (Order::column_bits + 1) & mask;
+        return (colour << bits | first) << bits | (order.column >> 1U & mask);
+    };
+    unsorted_.resize(found_.size());
     orders_.resize(found_.size());
-    for (std::uint32_t k = 0; k < orders_.size(); ++k) orders_[k] = order_of(k);
-    std::sort(orders_.begin(), orders_.end());
+    for_each_in_parts(executor, found_.size(), order_grain,
+                      [&](std::size_t, std::size_t k) { unsorted_[k] = order_of(static_cast<std::uint32_t>(k)); });
+    bucket_ends_.assign((colours << 2 * bits) + 1, 0);
+    for (const Order& order : unsorted_) ++bucket_ends_[bucket_of(order) + 1];
+    std::partial_sum(bucket_ends_.begin(), bucket_ends_.end(), bucket_ends_.begin());
+    for (const Order& order : unsorted_) orders_[bucket_ends_[bucket_of(order)]++] = order;
+    for_each_in_parts(executor, colours << 2 * bits, bucket_grain, [&](std::size_t, std::size_t bucket) {
+        const auto place = [this](std::uint32_t k) { return orders_.begin() + static_cast<std::ptrdiff_t>(k); };
+        std::sort(place(bucket == 0 ? 0 : bucket_ends_[bucket - 1]), place(bucket_ends_[bucket]));
+    });
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Groups
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// Whole columns make up bundles, which are for one thread each, and large enough to fill groups.
 template <class Real>
-void ContactList<Real>::make_groups() {
-    constexpr std::size_t bundled = 1024;
-    clear();
-    movers_ = state_.bodies.listed.size();
+void ContactList<Real>::make_groups(Executor& executor) {
+    plan_bundles();
     names_.resize(orders_.size());
+    next_group_.assign(state_.bodies.listed.size(), 0);
+    needs_.resize(bundles_.size());
+    kinds_.resize(bundles_.size());
+    for_each_coloured(
+        executor, [this](std::size_t part, std::size_t k) { needs_[k] = assign_groups(bundles_[k], fillings_[part]); });
+    give_room();
+    for_each_in_parts(executor, bundles_.size(), 1,
+                      [this](std::size_t, std::size_t k) { kinds_[k] = fill(bundles_[k]); });
     rubs_ = false;
     largest_restitution_ = 0;
-    next_group_.assign(state_.bodies.listed.size(), 0);
-    const auto colour_of = [this](std::size_t k) { return orders_[k].column >> 60U; };
+    for (const Kinds& kinds : kinds_) {
+        rubs_ = rubs_ || kinds.rubs;
+        largest_restitution_ = std::max(largest_restitution_, kinds.largest_restitution);
+    }
+}
+
+/// Whole columns make up bundles, which are for one thread each, and large enough to fill groups.
+template <class Real>
+void ContactList<Real>::plan_bundles() {
+    constexpr std::size_t bundled = 1024;
+    clear();
+    const auto colour_of = [this](std::size_t k) { return orders_[k].column >> 2 * Order::column_bits; };
     for (std::size_t begin = 0, k = 0; k < orders_.size(); begin = k) {
         do {
             ++k;
@@ -227,53 +265,100 @@ void ContactList<Real>::make_groups() {
             const bool is_enough = k - begin >= bundled || k == orders_.size() || colour_of(k) != colour_of(begin);
             if (ends_column && is_enough) break;
         } while (true);
-        make_bundle(begin, k);
+        bundles_.push_back({.first = static_cast<std::uint32_t>(begin), .last = static_cast<std::uint32_t>(k)});
         colour_ends_[colour_of(begin)] = static_cast<std::uint32_t>(bundles_.size());
     }
     for (std::size_t c = 1; c < colours; ++c) colour_ends_[c] = std::max(colour_ends_[c], colour_ends_[c - 1]);
 }
 
-/// A contact joins the first group with room behind all groups of its bodies.
+/// A contact joins the first group with room behind all groups of its bodies. Places count from the bundle's own first
+/// group.
 template <class Real>
-void ContactList<Real>::make_bundle(std::size_t begin, std::size_t end) {
-    const std::size_t first = groups_.size();
-    clear_for_reuse(fillings_);
-    clear_for_reuse(open_from_);
-    for (std::size_t k = begin; k < end; ++k) {
+auto ContactList<Real>::assign_groups(const Bundle& bundle, Fillings& fillings) -> Needs {
+    Needs needs;
+    auto& [contacts, open_from] = fillings;
+    clear_for_reuse(contacts);
+    clear_for_reuse(open_from);
+    for (std::size_t k = bundle.first; k < bundle.last; ++k) {
         const Found& found = found_[orders_[k].contact];
         std::uint32_t group = next_group_[found.a];
         if (found.b != nobody) group = std::max(group, next_group_[found.b]);
-        while (group < fillings_.size() && fillings_[group] == group_size) {
+        while (group < contacts.size() && contacts[group] == group_size) {
             // Shortcuts over full groups.
-            std::uint32_t& next = open_from_[group];
-            if (next < fillings_.size() && fillings_[next] == group_size) next = open_from_[next];
+            std::uint32_t& next = open_from[group];
+            if (next < contacts.size() && contacts[next] == group_size) next = open_from[next];
             group = next;
         }
-        if (group >= fillings_.size()) {
-            group = static_cast<std::uint32_t>(fillings_.size());
-            fillings_.push_back(0);
-            open_from_.push_back(group + 1);
+        if (group >= contacts.size()) {
+            group = static_cast<std::uint32_t>(contacts.size());
+            contacts.push_back(0);
+            open_from.push_back(group + 1);
         }
         next_group_[found.a] = group + 1;
         if (found.b != nobody) next_group_[found.b] = group + 1;
-        const std::size_t place = (first + group) * group_size + fillings_[group]++;
-        names_[k] = {.slot = found.slot, .code = found.code, .place = static_cast<std::uint32_t>(place)};
+        const std::size_t place = group * group_size + contacts[group]++;
+        ContactName& name = names_[k] = {.slot = found.slot,
+                                         .code = found.code,
+                                         .place = static_cast<std::uint32_t>(place),
+                                         .is_driven = is_driven(found)};
+        needs.anchors += found.b == nobody ? 1U : 0U;
+        needs.walls += name.is_wall() ? 1U : 0U;
+        needs.driven += name.is_driven ? 1U : 0U;
     }
-    const auto idle = static_cast<std::uint32_t>(movers_++);
-    ContactGroup<Real> empty;
-    empty.a.fill(idle);
-    empty.b.fill(idle);
-    empty.mass.fill(1);
-    empty.gap.fill(std::numeric_limits<Real>::infinity());
-    empty.touching.fill(-1);
-    groups_.resize(first + fillings_.size(), empty);
-    for (std::size_t k = begin; k < end; ++k) {
+    for (std::size_t k = bundle.first; k < bundle.last; ++k) {
         const Found& found = found_[orders_[k].contact];
-        fill(static_cast<std::uint32_t>(k), found);
         next_group_[found.a] = 0;
         if (found.b != nobody) next_group_[found.b] = 0;
     }
-    bundles_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(groups_.size())});
+    needs.groups = static_cast<std::uint32_t>(contacts.size());
+    return needs;
+}
+
+/// Gives each bundle its part of everything.
+template <class Real>
+void ContactList<Real>::give_room() {
+    Bundle next{.mover = static_cast<std::uint32_t>(state_.bodies.listed.size())};
+    for (std::size_t k = 0; k < bundles_.size(); ++k) {
+        Bundle& bundle = bundles_[k];
+        const Needs& needs = needs_[k];
+        next.first = bundle.first;
+        next.last = bundle.last;
+        next.end = next.begin + needs.groups;
+        bundle = next;
+        next.begin = next.end;
+        next.mover += 1 + needs.anchors;
+        next.wall += needs.walls;
+        next.drive += needs.driven;
+    }
+    groups_.resize(next.begin);
+    movers_ = next.mover;
+    at_walls_.resize(next.wall);
+    driven_.resize(next.drive);
+}
+
+template <class Real>
+auto ContactList<Real>::fill(const Bundle& bundle) -> Kinds {
+    ContactGroup<Real> empty;
+    empty.a.fill(bundle.mover);
+    empty.b.fill(bundle.mover);
+    empty.mass.fill(1);
+    empty.gap.fill(std::numeric_limits<Real>::infinity());
+    empty.touching.fill(-1);
+    std::fill(groups_.begin() + bundle.begin, groups_.begin() + bundle.end, empty);
+    Kinds kinds;
+    Bundle next = bundle;
+    for (std::uint32_t k = bundle.first; k < bundle.last; ++k) {
+        const Found& found = found_[orders_[k].contact];
+        ContactName& name = names_[k];
+        name.place += static_cast<std::uint32_t>(bundle.begin * group_size);
+        if (name.is_wall()) at_walls_[next.wall++] = k;
+        if (name.is_driven) driven_[next.drive++] = k;
+        const Encounter encounter = fill(name, found, found.b == nobody ? ++next.mover : nobody);
+        name.restitution = encounter.resting_restitution;
+        kinds.rubs = kinds.rubs || encounter.friction != 0;
+        kinds.largest_restitution = std::max(kinds.largest_restitution, name.restitution);
+    }
+    return kinds;
 }
 
 /// Whether what a leaner meets has a surface that moves as prescribed.
@@ -287,37 +372,31 @@ bool ContactList<Real>::is_driven(const Found& found) const {
     return bodies.kind[other] == Kind::kinematic || growth_of(bodies, other) != 0;
 }
 
+/// Fills the lane of a contact. `anchor`: mover in place of the other body, where there is none.
 template <class Real>
-void ContactList<Real>::fill(std::uint32_t number, const Found& found) {
+Encounter ContactList<Real>::fill(const ContactName& name, const Found& found, std::uint32_t anchor) {
     const Bodies<Real>& bodies = state_.bodies;
-    ContactName& name = names_[number];
-    ContactGroup<Real>& group = groups_[name.group()];
+    ContactGroup<Real>& group = group_of(name);
     const std::size_t lane = name.lane();
     const Index body = bodies.slots[found.slot];
     group.a[lane] = found.a;
-    group.b[lane] = found.b == nobody ? static_cast<std::uint32_t>(movers_++) : found.b;
-    name.is_driven = is_driven(found);
-    if (name.is_driven) driven_.push_back(number);
+    group.b[lane] = found.b == nobody ? anchor : found.b;
     Encounter encounter;
     double inverse = 1 / static_cast<double>(bodies.mass[body]);
     if (name.is_wall()) {
         encounter = encounter_of(state_, body, state_.bounds.surface(name.wall()), 0);
-        at_walls_.push_back(number);
     } else {
         const Index other = bodies.slots[found.code];
         encounter = encounter_of(state_, body, other, 0);
         inverse += 1 / static_cast<double>(bodies.mass[other]);
         const Int3 x = found.b == nobody ? bodies.motion[other].x : bodies.listed[found.b].x;
         const Int3 difference = nearest_image(state_.bounds, state_.resolution, x - bodies.listed[found.a].x, {});
-        const Vec3 apart = to_metres(difference, state_.resolution);
-        put_into(group.apart, lane, apart);
+        put_into(group.apart, lane, to_metres(difference, state_.resolution));
         open(name, bodies.motion[body].t);
     }
-    name.restitution = encounter.resting_restitution;
     group.mass[lane] = static_cast<Real>(1 / inverse);
     group.friction[lane] = static_cast<Real>(encounter.friction);
-    rubs_ = rubs_ || encounter.friction != 0;
-    largest_restitution_ = std::max(largest_restitution_, name.restitution);
+    return encounter;
 }
 
 template <class Real>

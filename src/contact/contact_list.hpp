@@ -44,7 +44,7 @@ public:
     /// bodies that are asleep among it.
     void find(Executor& executor, double margin, double time);
     /// Lists what Bodies::contacts names.
-    void recall();
+    void recall(Executor& executor);
     /// Bodies::list_edge for those that lean now: no contact is longer.
     [[nodiscard]] std::uint64_t wanted_edge() const;
 
@@ -68,15 +68,10 @@ public:
     /// Calls f(bundle, groups) for all bundles of groups, colour by colour: those of one colour at the same time.
     template <class F>
     void for_each_bundle(Executor& executor, F&& f) {
-        std::uint32_t begin = 0;
-        for (const std::uint32_t end : colour_ends_) {
-            if (end == begin) continue;
-            for_each_in_parts(executor, end - begin, 1, [&](std::size_t /*part*/, std::size_t k) {
-                const Bundle& bundle = bundles_[begin + k];
-                f(begin + k, std::span(groups_).subspan(bundle.begin, bundle.end - bundle.begin));
-            });
-            begin = end;
-        }
+        for_each_coloured(executor, [&](std::size_t /*part*/, std::size_t k) {
+            const Bundle& bundle = bundles_[k];
+            f(k, std::span(groups_).subspan(bundle.begin, bundle.end - bundle.begin));
+        });
     }
     [[nodiscard]] std::size_t bundles() const { return bundles_.size(); }
 
@@ -111,7 +106,8 @@ private:
         }
     };
     struct Order {
-        std::uint64_t column = 0; ///< its colour first
+        static constexpr unsigned column_bits = 30; ///< along either axis
+        std::uint64_t column = 0;                   ///< its colour first
         std::uint32_t height = 0;
         std::uint32_t contact = 0;
         std::uint64_t ids = 0;
@@ -119,26 +115,61 @@ private:
             return std::tie(x.column, x.height, x.ids) < std::tie(y.column, y.height, y.ids);
         }
     };
-    /// Groups of some columns of one colour.
+    /// Some columns of one colour: their contacts, and what is made of them. Begins count those of all bundles before.
     struct Bundle {
-        std::uint32_t begin = 0;
+        std::uint32_t first = 0; ///< contact, in orders_
+        std::uint32_t last = 0;  ///< behind the last one
+        std::uint32_t begin = 0; ///< group
         std::uint32_t end = 0;
+        std::uint32_t mover = 0; ///< its idle anchor, and behind it an anchor for each contact that needs one
+        std::uint32_t wall = 0;  ///< in at_walls_
+        std::uint32_t drive = 0; ///< in driven_
+    };
+    /// How many of them a bundle needs.
+    struct Needs {
+        std::uint32_t groups = 0;
+        std::uint32_t anchors = 0;
+        std::uint32_t walls = 0;
+        std::uint32_t driven = 0;
+    };
+    /// What is found while a bundle is filled.
+    struct Kinds {
+        bool rubs = false;
+        double largest_restitution = 0;
+    };
+    /// Room to make groups in.
+    struct Fillings {
+        std::vector<std::uint32_t> contacts;  ///< per group
+        std::vector<std::uint32_t> open_from; ///< per group: it is full up to this one, or further
     };
 
+    /// Calls f(part, bundle) in the same way.
+    template <class F>
+    void for_each_coloured(Executor& executor, F&& f) {
+        std::uint32_t begin = 0;
+        for (const std::uint32_t end : colour_ends_) {
+            if (end == begin) continue;
+            for_each_in_parts(executor, end - begin, 1, [&](std::size_t part, std::size_t k) { f(part, begin + k); });
+            begin = end;
+        }
+    }
     void number_leaners();
     void look_around(Executor& executor, double margin, double time);
     void add_pair(std::vector<Found>& found, Index a, Index b, double margin, double time) const;
     void add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const;
     [[nodiscard]] Vec3 apart(std::uint32_t a, Index other) const;
-    void arrange();
+    void arrange(Executor& executor);
     void assign_cells();
     [[nodiscard]] CellAxis cell_axis(int axis, const Census& census, std::uint64_t edge) const;
     [[nodiscard]] Order order_of(std::uint32_t number) const;
-    void sort();
-    void make_groups();
-    void make_bundle(std::size_t begin, std::size_t end);
+    void sort(Executor& executor);
+    void make_groups(Executor& executor);
+    void plan_bundles();
+    [[nodiscard]] Needs assign_groups(const Bundle& bundle, Fillings& fillings);
+    void give_room();
+    [[nodiscard]] Kinds fill(const Bundle& bundle);
     [[nodiscard]] bool is_driven(const Found& found) const;
-    void fill(std::uint32_t number, const Found& found);
+    [[nodiscard]] Encounter fill(const ContactName& name, const Found& found, std::uint32_t anchor);
 
     State<Real>& state_;
     std::vector<ContactName> names_; ///< in the order in which they are solved
@@ -160,11 +191,14 @@ private:
     std::vector<Found> found_;
     std::vector<Cell> cells_; ///< per leaner
     std::array<std::uint32_t, 2> turns_{};
+    std::vector<Order> unsorted_;
     std::vector<Order> orders_;
+    std::vector<std::uint32_t> bucket_ends_; ///< in orders_
     std::vector<std::uint32_t>
-        next_group_;                       ///< per leaner, the first group of the bundle that its next contact may join
-    std::vector<std::uint32_t> fillings_;  ///< per group of the bundle, its contacts
-    std::vector<std::uint32_t> open_from_; ///< per group of the bundle: it is full up to this one, or further
+        next_group_;           ///< per leaner, the first group of the bundle that its next contact may join
+    std::vector<Needs> needs_; ///< per bundle
+    std::vector<Kinds> kinds_; ///< per bundle
+    std::array<Fillings, most_parts> fillings_;
 };
 
 } // namespace carom::core

@@ -359,17 +359,15 @@ void Pile<Real>::close_contacts() {
         }
     }
     leave_facets();
-    for_each_marked(fast | gone, [this](const ContactName& name) {
+    const auto closes = [this](const ContactName& name) {
         const ContactGroup<Real>& group = list_.group_of(name);
         const std::size_t lane = name.lane();
-        const bool is_gone = ((marks_[group.a[lane]] | marks_[group.b[lane]]) & gone) != 0;
-        if (!is_gone && !is_closing(name)) return;
-        const auto number = static_cast<std::uint32_t>(&name - list_.names().data());
-        const double gap = gap_of(name);
+        if (((marks_[group.a[lane]] | marks_[group.b[lane]]) & gone) != 0) return true;
+        if (!is_closing(name)) return false;
         const double approach = approach_of(name);
-        const bool is_open = gap > 0 && approach > least_strike_ && approach > strike_of(name);
-        if (is_gone || is_open) close(number, gap);
-    });
+        return approach > least_strike_ && gap_of(name) > 0 && approach > strike_of(name);
+    };
+    for (const std::uint32_t number : find_marked(fast | gone, closes)) close(number, gap_of(list_.names()[number]));
 }
 
 /// What the impulse so far did remains, but is not done again.

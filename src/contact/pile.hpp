@@ -50,16 +50,17 @@ public:
     /// Calls f(a, b) for every pair that may strike each other in the piece, and f(a, no_index) for a body that may
     /// strike a wall, as far as bodies are told of (see Load).
     template <class F>
-    void for_each_strike(F&& f) const {
+    void for_each_strike(F&& f) {
         const auto tell = [&](const ContactName& name) {
             f(state_.bodies.slots[name.slot], name.is_wall() ? no_index : state_.bodies.slots[name.code]);
         };
         for (const Closed& closed : closed_) {
             if (may_strike(list_.names()[closed.number], closed.gap)) tell(list_.names()[closed.number]);
         }
-        for_each_marked(fast, [&](const ContactName& name) {
-            if (may_strike(name, static_cast<double>(list_.group_of(name).gap[name.lane()]))) tell(name);
-        });
+        const auto may_so = [this](const ContactName& name) {
+            return may_strike(name, static_cast<double>(list_.group_of(name).gap[name.lane()]));
+        };
+        for (const std::uint32_t number : find_marked(fast, may_so)) tell(list_.names()[number]);
         for_each_facet([&](std::uint32_t number) {
             if (may_sink(list_.names()[number])) tell(list_.names()[number]);
         });
@@ -167,14 +168,27 @@ private:
     [[nodiscard]] double strike_of(const ContactName& name) const;
     [[nodiscard]] bool may_strike(const ContactName& name, double gap) const;
     [[nodiscard]] bool may_sink(const ContactName& name) const;
-    template <class F>
-    void for_each_marked(std::uint8_t marks, F&& f) const {
-        if ((all_marks_ & marks) == 0) return;
+    /// The numbers of the contacts of marked movers that are accepted, in their order.
+    template <class Accepts>
+    std::span<const std::uint32_t> find_marked(std::uint8_t marks, Accepts&& accepts) {
+        clear_for_reuse(found_);
+        if ((all_marks_ & marks) == 0) return found_;
         const std::span<const ContactName> names = list_.names();
-        for (const ContactName& name : names) {
-            const ContactGroup<Real>& group = list_.group_of(name);
-            if (((marks_[group.a[name.lane()]] | marks_[group.b[name.lane()]]) & marks) != 0) f(name);
+        for_parts(*executor_, names.size(), contact_grain, [&](std::size_t part, std::size_t begin, std::size_t end) {
+            const ContactGroup<Real>* const groups = list_.groups().data();
+            const std::uint8_t* const marks_of = marks_.data();
+            for (std::size_t k = begin; k < end; ++k) {
+                const ContactGroup<Real>& group = groups[names[k].group()];
+                const std::size_t lane = names[k].lane();
+                if (((marks_of[group.a[lane]] | marks_of[group.b[lane]]) & marks) == 0 || !accepts(names[k])) continue;
+                found_in_part_[part].push_back(static_cast<std::uint32_t>(k));
+            }
+        });
+        for (std::vector<std::uint32_t>& found : found_in_part_) {
+            found_.insert(found_.end(), found.begin(), found.end());
+            clear_for_reuse(found);
         }
+        return found_;
     }
 
     // Leaners.
@@ -240,6 +254,8 @@ private:
 
     // Room to work in.
     std::array<Findings, most_parts> findings_;
+    std::array<std::vector<std::uint32_t>, most_parts> found_in_part_;
+    std::vector<std::uint32_t> found_;
     std::vector<std::uint32_t> returned_;
     std::vector<double> still_; ///< s, per slot
     std::vector<bool> borne_;   ///< per slot

@@ -92,7 +92,7 @@ void Pile<Real>::resume_list() {
     Bodies<Real>& bodies = state_.bodies;
     if (!is_listed_) {
         clear_for_reuse(closed_);
-        list_.recall();
+        list_.recall(*executor_);
     }
     is_listed_ = true;
     bodies_.resize(bodies.listed.size());
@@ -191,7 +191,8 @@ void Pile<Real>::recall_forces() {
         return name.slot == force.a && name.code == force.code;
     };
     if (std::equal(names.begin(), names.end(), forces.begin(), forces.end(), is_of)) {
-        for (std::size_t k = 0; k < names.size(); ++k) take(names[k], forces[k]);
+        for_each_in_parts(*executor_, names.size(), contact_grain,
+                          [&](std::size_t, std::size_t k) { take(names[k], forces[k]); });
         return;
     }
     // By body a: where its forces begin, once they are in order.
@@ -200,13 +201,14 @@ void Pile<Real>::recall_forces() {
     for (std::size_t k = 1; k < first_forces_.size(); ++k) first_forces_[k] += first_forces_[k - 1];
     force_order_.resize(forces.size());
     for (std::uint32_t k = 0; k < forces.size(); ++k) force_order_[first_forces_[forces[k].a]++] = k;
-    for (const ContactName& name : names) {
+    for_each_in_parts(*executor_, names.size(), contact_grain, [&](std::size_t, std::size_t k) {
+        const ContactName& name = names[k];
         // The list of a body ends where it was counted up to.
         const std::uint32_t begin = name.slot == 0 ? 0 : first_forces_[name.slot - 1];
         for (std::uint32_t i = begin; i < first_forces_[name.slot]; ++i) {
             if (is_of(name, forces[force_order_[i]])) take(name, forces[force_order_[i]]);
         }
-    }
+    });
 }
 
 template <class Real>
