@@ -94,7 +94,7 @@ void derive_motion(State<Real>& state, Index body, Hold& hold, double duration, 
     hold.sticks = mu > 0 && duration > 0 && (grip - length(pull)) * duration >= speed;
     if (hold.sticks) {
         hold.friction = v / -duration - slide;
-    } else if (mu > 0) {
+    } else if (mu > 0 && (speed > 0 || pull != Vec3{})) {
         const Vec3 slip = speed > 0 ? v / speed : pull / length(pull);
         // A body that slides up a slope turns on the way, and its friction would then drive it: no more of it than
         // takes energy up to the end.

@@ -2,6 +2,11 @@
 
 #include <carom/collision.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #ifdef CAROM_DEFECT_RESPONSE // only in tests/defects
 #    include CAROM_DEFECT_RESPONSE
 #endif
@@ -63,6 +68,21 @@ void take_part(State<Real>& state, Index body, double time, Entry& entry) {
 template <class Real>
 void set_velocity(State<Real>& state, Index body, const Vec3& v) {
     if (!is_prescribed(state.bodies.kind[body])) state.bodies.motion[body].v = rounded<Real>(v);
+}
+
+/// The same in a jam, for a body that is pushed in a direction: by one unit in the last place at least. A heavy one
+/// that pushes light ones on would else not be slowed at all, and have impacts without end.
+template <class Real>
+void set_velocity_in_jam(State<Real>& state, Index body, const Vec3& v, const Vec3& push) {
+    if (is_prescribed(state.bodies.kind[body])) return;
+    Vector3<Real>& velocity = state.bodies.motion[body].v;
+    const Vector3<Real> before = std::exchange(velocity, rounded<Real>(v));
+    if (velocity != before) return;
+    const auto size = [&push](int axis) { return std::abs(component(push, axis)); };
+    const int axis = size(0) >= std::max(size(1), size(2)) ? 0 : (size(1) >= size(2) ? 1 : 2);
+    const auto limit = std::copysign(std::numeric_limits<Real>::max(), static_cast<Real>(component(push, axis)));
+    Real& part = axis == 0 ? velocity.x : (axis == 1 ? velocity.y : velocity.z);
+    part = std::nextafter(part, limit);
 }
 
 template <class Real>
@@ -172,6 +192,17 @@ void strike(State<Real>& state, Index body, const Support& support, const Encoun
     write_down(response, occurrence);
 }
 
+/// What jams stands still once its speed would not take it one unit of the resolution further in the rest time: else
+/// the impacts in a wedge go on down to the smallest numbers, and from the start with whatever squeezes the body next.
+template <class Real>
+void stand_still(State<Real>& state, Index body, Entry& entry) {
+    const Vec3 v = velocity_of(state.bodies.motion[body]);
+    if (length(v) * state.laws.rest_time >= state.resolution.metres) return;
+    set_velocity(state, body, {});
+    entry.outer_impulse -= v * mass_of(state, body);
+    entry.lost_to_restitution += 0.5 * mass_of(state, body) * length_squared(v);
+}
+
 /// A body, already at its time, against something whose motion is prescribed: a face, a static or a kinematic body. An
 /// approach that is mere rounding is no impact: the body only finds one more support, beside those it may have.
 template <class Real>
@@ -203,7 +234,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         haste.lasts = haste.lasts && !(pressure_here(state, body, support, along).acceleration > 0);
         // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
         // would wear down in ever more impacts of a light body in between.
-        const bool squeezed = haste.jams || (haste.stands && e < 1);
+        const bool squeezed = haste.jams || (haste.stands && (e < 1 || state.laws.wears));
         occurrence.is_crushed = haste.jams && support.is_driven;
         come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
                                         pressure_here(state, body, support, along).acceleration >= 0);
@@ -217,6 +248,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
             apply_haste(haste, state.laws, approach, length(relative), encounter, occurrence);
         }
         strike(state, body, support, encounter, occurrence);
+        if (haste.jams && !support.is_driven) stand_still(state, body, occurrence.entry);
         occurrence.is_impact = !only_stops;
     }
     if (come_to_rest) {
@@ -451,8 +483,13 @@ void meet_body(State<Real>& state, Index a, Index b, const Meeting& meeting, con
     release(state.bodies, b);
     const Response<double> response = respond(impact.normal, mass_of(state, a), v_a, mass_of(state, b), v_b,
                                               encounter.restitution, encounter.friction);
-    set_velocity(state, a, v_a - own_growth);
-    set_velocity(state, b, v_b);
+    if (haste.jams) {
+        set_velocity_in_jam(state, a, v_a - own_growth, -impact.normal);
+        set_velocity_in_jam(state, b, v_b, impact.normal);
+    } else {
+        set_velocity(state, a, v_a - own_growth);
+        set_velocity(state, b, v_b);
+    }
     occurrence.entry.prescribed_work += response.impulse * growth;
     write_down(response, occurrence);
 }

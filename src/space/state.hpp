@@ -32,6 +32,7 @@ struct Laws {
     double collapse_time = 0; ///< s, how long an impact is remembered
     bool sleeping = true;     ///< islands that lie still fall asleep
     double kick_interval = 0; ///< s between two kicks of attractors: the length of the step
+    bool wears = false;       ///< something takes energy, e < 1 or mu > 0 anywhere: elastic bounces die out, too
     std::vector<Material> materials{};
     std::vector<MaterialRule> rules{};
     std::vector<PointField> fields{};
@@ -154,6 +155,25 @@ Encounter encounter_of(const State<Real>& state, Index body, const Surface& surf
     const Yielder alone{static_cast<double>(bodies.mass[body]), static_cast<double>(bodies.motion[body].radius)};
     return encounter_by_speed(state.laws, approach, mu,
                               [&](double speed) { return restitution_of(state.laws, bodies, body, alone, speed); });
+}
+
+/// Whether anything takes energy.
+template <class Real>
+bool wears(const State<Real>& state) {
+    const auto takes = [](double e, double mu) { return e < 1 || mu > 0; };
+    for (const MaterialRule& rule : state.laws.rules) {
+        if (rule.law || takes(rule.restitution, rule.friction)) return true;
+    }
+    for (std::uint32_t wall = 0; wall < state.bounds.size(); ++wall) {
+        const Surface& surface = state.bounds.surface(wall);
+        if (takes(surface.restitution.value_or(1), surface.friction.value_or(0))) return true;
+    }
+    const Bodies<Real>& bodies = state.bodies;
+    if (!state.laws.materials.empty()) return bodies.size() > 0;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (takes(static_cast<double>(bodies.restitution[i]), static_cast<double>(bodies.friction[i]))) return true;
+    }
+    return false;
 }
 
 /// What accelerates a body between impacts, m/s^2.

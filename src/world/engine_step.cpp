@@ -189,6 +189,7 @@ void Engine<Real>::begin_step(double dt) {
         };
     }
     state_.laws.kick_interval = dt;
+    state_.laws.wears = state_.laws.gravity != Vec3{} && wears(state_);
     state_.books.held_mass_time = {};
     if (!state_.bodies.interpolating) return;
     for (Index i = 0; i < size(); ++i) state_.bodies.previous[i] = state_.bodies.motion[i].x;

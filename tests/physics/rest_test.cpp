@@ -370,6 +370,29 @@ void expect_bounded(const Lean& lean, double e, double mu, double mass) {
     EXPECT_LE(rise, static_cast<double>(lean.lying.size() + 1) * springs + 1e-9 * start);
 }
 
+// In a corner three faces leave no way to slide along, and at the end of a step no time to.
+TEST(Rest, ABodyComesToRestInACornerAtTheVeryEndOfAStep) {
+    const auto corner = [] {
+        WorldOptions options;
+        options.gravity = {-3, -4, -g};
+        options.region = carom::Box{{0, 0, 0}, {10, 10, 10}};
+        options.record_impacts = true;
+        World world(options);
+        world.add({.position = {1, 2, 3}, .radius = 0.25, .restitution = 0, .friction = 0.2});
+        return world;
+    };
+    World long_step = corner();
+    long_step.step(4);
+    ASSERT_EQ(long_step.contacts().size(), 3U);
+    World world = corner();
+    world.step(long_step.impacts().back().offset);
+    world.step(1);
+    const Body ball = world.get(world.ids()[0]);
+    EXPECT_EQ(ball.velocity, Vec3{});
+    EXPECT_NEAR(length(ball.position - Vec3{0.25, 0.25, 0.25}), 0, 4 * world.resolution());
+    EXPECT_EQ(world.contacts().size(), 3U);
+}
+
 TEST(Rest, LeaningOnABodyThatLiesIsBoundedWork) {
     for (const Lean& lean : leans()) {
         for (const double e : {0.0, 0.3, 0.9}) {
