@@ -78,7 +78,7 @@ void ContactList<Real>::look_around(Executor& executor, double margin, double ti
         [&](Index k) {
             const Motion<Real>& m = bodies.motion[body_at(k)];
             const Vec3 way = k < leaning ? Vec3{} : velocity_of(m) * (time - m.t);
-            return ticks_.ball(m.x, way, static_cast<double>(m.radius) + margin / 2);
+            return ticks_.ball(m.x, way, radius_at(bodies, body_at(k), time) + margin / 2);
         },
         [leaning](Index k) { return k < leaning; });
     for_each_in_parts(executor, bodies.listed.size(), leaner_grain, [&](std::size_t part, std::size_t k) {
@@ -102,7 +102,7 @@ void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, do
     if (!is_static && bodies.slot[a] > bodies.slot[b]) return;
     const Motion<Real>& m_a = bodies.motion[a];
     const Motion<Real>& m_b = bodies.motion[b];
-    const double touching = static_cast<double>(m_a.radius) + static_cast<double>(m_b.radius);
+    const double touching = radius_at(bodies, a, time) + radius_at(bodies, b, time);
     const Vec3 way = is_static ? velocity_of(m_b) * (time - m_b.t) : Vec3{};
     if (length(separation(state_, m_a, m_b, {}, way)) > touching + margin) return;
     found.push_back({places_[a], is_static ? nobody : places_[b], bodies.slot[a], bodies.slot[b]});
@@ -111,8 +111,9 @@ void ContactList<Real>::add_pair(std::vector<Found>& found, Index a, Index b, do
 template <class Real>
 void ContactList<Real>::add_walls(std::vector<Found>& found, std::uint32_t a, double margin, double time) const {
     const std::uint32_t slot = state_.bodies.listed[a].slot;
-    const Motion<Real>& m = state_.bodies.motion[state_.bodies.slots[slot]];
-    const auto radius = static_cast<double>(m.radius);
+    const Index body = state_.bodies.slots[slot];
+    const Motion<Real>& m = state_.bodies.motion[body];
+    const double radius = radius_at(state_.bodies, body, time);
     const Bounds& bounds = state_.bounds;
     const auto add = [&](std::uint32_t wall) { found.push_back({a, nobody, slot, Support::wall_bit | wall}); };
     if (bounds.may_touch_wall(m.x, radius + margin, state_.resolution)) {
@@ -139,11 +140,11 @@ void ContactList<Real>::arrange(Executor& executor) {
 }
 
 template <class Real>
-std::uint64_t ContactList<Real>::wanted_edge() const {
+std::uint64_t ContactList<Real>::wanted_edge(double time) const {
     const Bodies<Real>& bodies = state_.bodies;
     double largest = 0;
     for (const ListedBody& l : bodies.listed) {
-        largest = std::max(largest, static_cast<double>(bodies.motion[bodies.slots[l.slot]].radius));
+        largest = std::max(largest, radius_at(bodies, bodies.slots[l.slot], time));
     }
     return static_cast<std::uint64_t>((2 * largest + bodies.list_margin) * state_.resolution.per_metre) + 1;
 }

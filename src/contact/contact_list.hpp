@@ -45,8 +45,8 @@ public:
     void find(Executor& executor, double margin, double time);
     /// Lists what Bodies::contacts names.
     void recall(Executor& executor);
-    /// Bodies::list_edge for those that lean now: no contact is longer.
-    [[nodiscard]] std::uint64_t wanted_edge() const;
+    /// Bodies::list_edge for those that lean at `time` (s since the start of the step): no contact is longer.
+    [[nodiscard]] std::uint64_t wanted_edge(double time) const;
 
     [[nodiscard]] std::span<const ContactName> names() const { return names_; }
     [[nodiscard]] ContactGroup<Real>& group_of(const ContactName& name) { return groups_[name.group()]; }

@@ -564,9 +564,10 @@ void Pile<Real>::set_out() {
 template <class Real>
 void Pile<Real>::go() {
     const auto frequency = static_cast<Real>(1 / piece_);
-    // An impact may change its speed within the piece.
-    const double room = far_ - state_.resolution.metres;
-    const double room_if_slow = std::max(0.0, room - told_speed_ * piece_);
+    // The list does not know of what has grown since. An impact may change its speed within the piece.
+    const double grown = state_.bodies.top_growth * state_.bodies.list_age;
+    const double room = far_ - grown - state_.resolution.metres;
+    const double room_if_slow = room - told_speed_ * piece_;
     for_each_leaner([&](Findings& findings, std::size_t k) {
         const Index body = bodies_[k];
         const Vector v = movers_[k].v;
@@ -576,7 +577,7 @@ void Pile<Real>::go() {
         const double speed_squared = length_squared(detail::wide(v));
         const double moved_squared = length_squared(detail::wide(places_[k].x));
         const bool is_told = speed_squared <= told_speed_ * told_speed_
-                                 ? moved_squared <= room_if_slow * room_if_slow
+                                 ? room_if_slow >= 0 && moved_squared <= room_if_slow * room_if_slow
                                  : std::sqrt(moved_squared) + std::sqrt(speed_squared) * piece_ <= room;
         Load<Real>& load = state_.bodies.loads[body];
         load.given = v;

@@ -26,7 +26,7 @@ void Pile<Real>::start_list(double from) {
             bodies.listed[k].x = bodies.motion[bodies_[k]].x;
         });
         bodies.list_margin = wanted_margin();
-        bodies.list_edge = list_.wanted_edge();
+        bodies.list_edge = list_.wanted_edge(from);
         far_ = 0.5 * bodies.list_margin;
         list_.find(*executor_, bodies.list_margin, from);
     } while (wake_neighbours());
