@@ -192,12 +192,21 @@ void strike(State<Real>& state, Index body, const Support& support, const Encoun
     write_down(response, occurrence);
 }
 
+/// Whether a body stops at a support, along which it goes with `v`, because it is squeezed against it and nothing pulls
+/// it away: else whatever squeezes it would wear down in ever more impacts of a light body in between.
+template <class Real>
+bool stops_squeezed(const State<Real>& state, Index body, const Support& support, const Vec3& v, const Haste& haste,
+                    double e) {
+    const bool is_squeezed = haste.jams || (haste.stands && (e < 1 || state.laws.wears));
+    return is_squeezed && !support.is_driven && pressure_here(state, body, support, v).acceleration >= 0;
+}
+
 /// What jams stands still once its speed would not take it one unit of the resolution further in the rest time: else
 /// the impacts in a wedge go on down to the smallest numbers, and from the start with whatever squeezes the body next.
 template <class Real>
-void stand_still(State<Real>& state, Index body, Entry& entry) {
+void stand_still(State<Real>& state, Index body, const Support& support, Entry& entry) {
     const Vec3 v = velocity_of(state.bodies.motion[body]);
-    if (length(v) * state.laws.rest_time >= state.resolution.metres) return;
+    if (support.is_driven || length(v) * state.laws.rest_time >= state.resolution.metres) return;
     set_velocity(state, body, {});
     entry.outer_impulse -= v * mass_of(state, body);
     entry.lost_to_restitution += 0.5 * mass_of(state, body) * length_squared(v);
@@ -232,12 +241,8 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
         Haste haste = count_impact(state, body, time, approach, encounter.restitution < 1);
         // What presses a body on brings it to rest.
         haste.lasts = haste.lasts && !(pressure_here(state, body, support, along).acceleration > 0);
-        // What is squeezed against a support stops there, as long as nothing pulls it away: else whatever squeezes it
-        // would wear down in ever more impacts of a light body in between.
-        const bool squeezed = haste.jams || (haste.stands && (e < 1 || state.laws.wears));
         occurrence.is_crushed = haste.jams && support.is_driven;
-        come_to_rest = come_to_rest || (squeezed && may_rest && !support.is_driven &&
-                                        pressure_here(state, body, support, along).acceleration >= 0);
+        come_to_rest = come_to_rest || (may_rest && stops_squeezed(state, body, support, along, haste, e));
         // What comes to rest in a wedge lies on both sides: else it would go from one to the other without end.
         stays = come_to_rest ? stays_on_supports(state, body, -support.normal)
                              : haste.collapses && moves_along_supports(state, body, support.normal);
@@ -248,7 +253,7 @@ void meet_support(State<Real>& state, Index body, const Support& support, Encoun
             apply_haste(haste, state.laws, approach, length(relative), encounter, occurrence);
         }
         strike(state, body, support, encounter, occurrence);
-        if (haste.jams && !support.is_driven) stand_still(state, body, occurrence.entry);
+        if (haste.jams) stand_still(state, body, support, occurrence.entry);
         occurrence.is_impact = !only_stops;
     }
     if (come_to_rest) {

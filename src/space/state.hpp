@@ -164,14 +164,14 @@ bool wears(const State<Real>& state) {
     for (const MaterialRule& rule : state.laws.rules) {
         if (rule.law || takes(rule.restitution, rule.friction)) return true;
     }
+    const Bodies<Real>& bodies = state.bodies;
+    if (!state.laws.materials.empty()) return true;
+    for (Index i = 0; i < bodies.size(); ++i) {
+        if (takes(static_cast<double>(bodies.restitution[i]), static_cast<double>(bodies.friction[i]))) return true;
+    }
     for (std::uint32_t wall = 0; wall < state.bounds.size(); ++wall) {
         const Surface& surface = state.bounds.surface(wall);
         if (takes(surface.restitution.value_or(1), surface.friction.value_or(0))) return true;
-    }
-    const Bodies<Real>& bodies = state.bodies;
-    if (!state.laws.materials.empty()) return bodies.size() > 0;
-    for (Index i = 0; i < bodies.size(); ++i) {
-        if (takes(static_cast<double>(bodies.restitution[i]), static_cast<double>(bodies.friction[i]))) return true;
     }
     return false;
 }
